@@ -1,0 +1,99 @@
+//! MECHANICS: a linear elastic body in small strain.
+//!
+//! ```text
+//! (B1)  ∫ ε(v) : C ε(u) dV = ∫ v · b dV + ∫ v · p dA + Σ v · P      for all v that vanish on the supports
+//! (B2)  K u = f + (contact and support reactions)
+//! ```
+//!
+//! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
+//! plane stress; every force below is for that depth.
+
+pub mod mesh;
+
+pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
+
+/// How strain and stress live in the body's dimension.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Model {
+    /// 2D, no strain out of the plane, 1 m deep.
+    PlaneStrain,
+    /// 2D, no stress out of the plane.
+    PlaneStress {
+        /// Depth of the plate, in metre.
+        thickness: f64,
+    },
+    /// 3D.
+    Solid,
+}
+
+/// An isotropic linear elastic material.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Material {
+    /// Young's modulus `E > 0`, in pascal.
+    pub young: f64,
+    /// Poisson's ratio, `-1 < ν < 0.5`.
+    pub poisson: f64,
+}
+
+/// Nodes whose displacement is given, component by component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Support {
+    /// Where the scene says so, for messages, such as `bodies[0].supports[1]`.
+    pub place: String,
+    /// The supported nodes.
+    pub nodes: Vec<usize>,
+    /// Prescribed displacement per global axis, in metre; `None` leaves the component free.
+    pub displacement: [Option<f64>; 3],
+}
+
+/// A given force on the body.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Load {
+    /// Force per area along the inward normal (positive presses), in pascal.
+    Pressure {
+        /// Loaded facets.
+        facets: Vec<Facet>,
+        /// Pressure, in pascal.
+        pressure: f64,
+    },
+    /// Force per area in global axes, in pascal.
+    Traction {
+        /// Loaded facets.
+        facets: Vec<Facet>,
+        /// Traction, in pascal.
+        traction: [f64; 3],
+    },
+    /// Force per volume in global axes, in N/m³.
+    BodyForce {
+        /// Loaded cells.
+        cells: Vec<usize>,
+        /// Force density, in N/m³.
+        density: [f64; 3],
+    },
+    /// Force at a node in global axes, in newton (2D: per metre of depth).
+    PointForce {
+        /// Loaded node.
+        node: usize,
+        /// Force, in newton.
+        force: [f64; 3],
+    },
+}
+
+/// An elastic body: mesh, material, supports and loads.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Name for messages and reports.
+    pub name: String,
+    /// Nodes, cells and named groups.
+    pub mesh: Mesh,
+    /// Plane strain, plane stress or 3D.
+    pub model: Model,
+    /// The materials.
+    pub materials: Vec<Material>,
+    /// Index into `materials` per cell.
+    pub material_of_cell: Vec<usize>,
+    /// Prescribed displacements.
+    pub supports: Vec<Support>,
+    /// Given forces.
+    pub loads: Vec<Load>,
+}

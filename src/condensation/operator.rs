@@ -1,0 +1,212 @@
+//! The condensed operator: compliance G, and stiffness S where it exists.
+//!
+//! ```text
+//! (C2)  S = L Lᵀ      G = S⁻¹ = L⁻ᵀ L⁻¹      L: lower triangular
+//! ```
+
+use std::sync::OnceLock;
+
+use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::triangular_inverse::invert_lower_triangular;
+use faer::{Accum, Mat, MatRef, Side, get_global_parallelism};
+
+use crate::error::{Error, check_finite};
+
+/// Largest asymmetry `|G_ij − G_ji|` accepted, relative to the largest entry of G.
+const SYMMETRY: f64 = 1e-10;
+
+/// Compliance of the contact surface, symmetric positive semi-definite, in m/N.
+///
+/// Rows and columns follow the contacts, normal first in every block. The stiffness
+/// `S = G⁻¹` is formed once, when somebody first asks for it.
+#[derive(Clone, Debug)]
+pub struct Operator {
+    compliance: Mat<f64>,
+    factor: Option<Mat<f64>>,
+    stiffness: OnceLock<Option<Mat<f64>>>,
+}
+
+impl Operator {
+    /// Takes a compliance that some other code computed.
+    ///
+    /// # Errors
+    ///
+    /// A matrix that is not square, not finite, not symmetric (with the size of the
+    /// violation), or that has a negative diagonal entry.
+    pub fn from_compliance(compliance: Mat<f64>) -> Result<Self, Error> {
+        let size = compliance.nrows();
+        if compliance.ncols() != size {
+            let (expected, found) = (size, compliance.ncols());
+            return Err(Error::Length {
+                place: "operator columns".into(),
+                expected,
+                found,
+            });
+        }
+        let mut largest = 0.0_f64;
+        for j in 0..size {
+            check_finite(&format!("operator column {j}"), compliance.col_as_slice(j))?;
+            largest = compliance
+                .col_as_slice(j)
+                .iter()
+                .fold(largest, |m, x| m.max(x.abs()));
+        }
+        for j in 0..size {
+            for i in j..size {
+                let violation = (compliance[(i, j)] - compliance[(j, i)]).abs();
+                if violation > SYMMETRY * largest {
+                    return Err(Error::NotSymmetric {
+                        row: i,
+                        column: j,
+                        violation,
+                        largest,
+                    });
+                }
+            }
+            if compliance[(j, j)] < 0.0 {
+                return Err(Error::OutOfRange {
+                    place: format!("operator[{j}][{j}]"),
+                    value: compliance[(j, j)],
+                    accepted: "a diagonal entry >= 0",
+                });
+            }
+        }
+        Ok(Self {
+            compliance,
+            factor: None,
+            stiffness: OnceLock::new(),
+        })
+    }
+
+    /// Takes the trailing block `L_cc` of a Cholesky factor (C2); its upper triangle is not read.
+    #[must_use]
+    pub(crate) fn from_factor(factor: Mat<f64>) -> Self {
+        let size = factor.nrows();
+        let par = get_global_parallelism();
+        let mut inverse = Mat::zeros(size, size);
+        invert_lower_triangular(inverse.as_mut(), factor.as_ref(), par);
+        let compliance = symmetric_product(
+            inverse.transpose(),
+            BlockStructure::TriangularUpper,
+            inverse.as_ref(),
+            BlockStructure::TriangularLower,
+        );
+        Self {
+            compliance,
+            factor: Some(factor),
+            stiffness: OnceLock::new(),
+        }
+    }
+
+    /// Number of unknowns.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.compliance.nrows()
+    }
+
+    /// G, in m/N; both triangles are filled.
+    #[must_use]
+    pub fn compliance(&self) -> &Mat<f64> {
+        &self.compliance
+    }
+
+    /// S = G⁻¹, in N/m; none where G is not positive definite.
+    #[must_use]
+    pub fn stiffness(&self) -> Option<&Mat<f64>> {
+        self.stiffness
+            .get_or_init(|| self.form_stiffness())
+            .as_ref()
+    }
+
+    fn form_stiffness(&self) -> Option<Mat<f64>> {
+        if let Some(factor) = &self.factor {
+            return Some(symmetric_product(
+                factor.as_ref(),
+                BlockStructure::TriangularLower,
+                factor.transpose(),
+                BlockStructure::TriangularUpper,
+            ));
+        }
+        let cholesky = self.compliance.llt(Side::Lower).ok()?;
+        let mut inverse = Mat::zeros(self.size(), self.size());
+        invert_lower_triangular(inverse.as_mut(), cholesky.L(), get_global_parallelism());
+        Some(symmetric_product(
+            inverse.transpose(),
+            BlockStructure::TriangularUpper,
+            inverse.as_ref(),
+            BlockStructure::TriangularLower,
+        ))
+    }
+}
+
+/// Product of a triangular matrix and its transpose, half computed and half mirrored.
+fn symmetric_product(
+    left: MatRef<'_, f64>,
+    left_structure: BlockStructure,
+    right: MatRef<'_, f64>,
+    right_structure: BlockStructure,
+) -> Mat<f64> {
+    let size = left.nrows();
+    let mut product = Mat::zeros(size, size);
+    triangular::matmul(
+        product.as_mut(),
+        BlockStructure::TriangularLower,
+        Accum::Replace,
+        left,
+        left_structure,
+        right,
+        right_structure,
+        1.0,
+        get_global_parallelism(),
+    );
+    for j in 0..size {
+        for i in 0..j {
+            product[(i, j)] = product[(j, i)];
+        }
+    }
+    product
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use faer::mat;
+
+    #[test]
+    fn compliance_and_stiffness_of_a_factor_are_inverse() {
+        let factor = mat![[2.0, 9.0, 9.0], [1.0, 3.0, 9.0], [-1.0, 0.5, 1.5]];
+        let operator = Operator::from_factor(factor);
+        let product = operator.compliance() * operator.stiffness().unwrap();
+        assert!((product - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
+        // S = L Lᵀ: row 2 of L is (1, 3, 0), so S_11 = 10.
+        assert!((operator.stiffness().unwrap()[(1, 1)] - 10.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn stiffness_of_a_bare_compliance_is_its_inverse() {
+        let operator = Operator::from_compliance(mat![[2.0, 1.0], [1.0, 1.0]]).unwrap();
+        let expected = mat![[1.0, -1.0], [-1.0, 2.0]];
+        assert!((operator.stiffness().unwrap() - expected).norm_max() < 1e-14);
+    }
+
+    #[test]
+    fn a_singular_compliance_has_no_stiffness() {
+        let operator = Operator::from_compliance(mat![[1.0, 0.0], [0.0, 0.0]]).unwrap();
+        assert!(operator.stiffness().is_none());
+    }
+
+    #[test]
+    fn an_asymmetric_compliance_is_refused_with_the_size_of_the_violation() {
+        let found = Operator::from_compliance(mat![[1.0, 0.5], [0.25, 1.0]]).unwrap_err();
+        assert_eq!(
+            found,
+            Error::NotSymmetric {
+                row: 1,
+                column: 0,
+                violation: 0.25,
+                largest: 1.0
+            }
+        );
+    }
+}

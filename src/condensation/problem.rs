@@ -1,0 +1,126 @@
+//! The condensed contact problem: plain numbers between mechanics and solver.
+
+use faer::Mat;
+
+use super::Operator;
+use crate::error::{Error, check_finite, check_length};
+
+/// Find reactions `t` and displacements `u = û + G t` (C1) that satisfy (L1)–(L3).
+///
+/// Contact `i` owns a block of `1 + tangents[i]` unknowns, normal first; blocks stand
+/// one after the other. A contact without friction has no tangent. The free
+/// displacement is positive towards the other side, reactions are `≤ 0` pressed.
+#[derive(Clone, Debug)]
+pub struct ContactProblem {
+    friction: Vec<f64>,
+    initial_gap: Vec<f64>,
+    free_displacement: Vec<f64>,
+    operator: Operator,
+    offsets: Vec<usize>,
+}
+
+impl ContactProblem {
+    /// Checks and joins the parts.
+    ///
+    /// - `tangents`: tangential unknowns per contact, 0 to 2;
+    /// - `friction`: coefficient `μ ≥ 0` per contact;
+    /// - `initial_gap`: in metre, per contact;
+    /// - `free_displacement`: in metre, per unknown;
+    /// - `operator`: compliance in m/N.
+    ///
+    /// # Errors
+    ///
+    /// A length that does not fit, a NaN or infinity, a negative coefficient, more than two tangents.
+    pub fn new(
+        tangents: &[usize],
+        friction: Vec<f64>,
+        initial_gap: Vec<f64>,
+        free_displacement: Vec<f64>,
+        operator: Operator,
+    ) -> Result<Self, Error> {
+        let contacts = tangents.len();
+        check_length("friction", contacts, friction.len())?;
+        check_length("initial_gap", contacts, initial_gap.len())?;
+        for (contact, &count) in tangents.iter().enumerate() {
+            if count > 2 {
+                return Err(Error::OutOfRange {
+                    place: format!("tangents[{contact}]"),
+                    value: count as f64,
+                    accepted: "0, 1 or 2",
+                });
+            }
+        }
+        let mut offsets = vec![0];
+        for &count in tangents {
+            offsets.push(offsets[offsets.len() - 1] + 1 + count);
+        }
+        let unknowns = offsets[contacts];
+        check_length("free_displacement", unknowns, free_displacement.len())?;
+        check_length("operator", unknowns, operator.size())?;
+        check_finite("friction", &friction)?;
+        check_finite("initial_gap", &initial_gap)?;
+        check_finite("free_displacement", &free_displacement)?;
+        if let Some(contact) = friction.iter().position(|&mu| mu < 0.0) {
+            return Err(Error::OutOfRange {
+                place: format!("friction[{contact}]"),
+                value: friction[contact],
+                accepted: "friction >= 0",
+            });
+        }
+        Ok(Self {
+            friction,
+            initial_gap,
+            free_displacement,
+            operator,
+            offsets,
+        })
+    }
+
+    /// Number of contacts.
+    #[must_use]
+    pub fn contacts(&self) -> usize {
+        self.friction.len()
+    }
+
+    /// Number of unknowns over all contacts.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.free_displacement.len()
+    }
+
+    /// First unknown of each contact, and the number of unknowns at the end.
+    #[must_use]
+    pub fn offsets(&self) -> &[usize] {
+        &self.offsets
+    }
+
+    /// Coefficient of friction per contact.
+    #[must_use]
+    pub fn friction(&self) -> &[f64] {
+        &self.friction
+    }
+
+    /// Initial gap per contact, in metre.
+    #[must_use]
+    pub fn initial_gap(&self) -> &[f64] {
+        &self.initial_gap
+    }
+
+    /// Displacement without contact forces per unknown, in metre.
+    #[must_use]
+    pub fn free_displacement(&self) -> &[f64] {
+        &self.free_displacement
+    }
+
+    /// The condensed operator.
+    #[must_use]
+    pub fn operator(&self) -> &Operator {
+        &self.operator
+    }
+
+    /// Compliance G, in m/N.
+    #[must_use]
+    pub fn compliance(&self) -> &Mat<f64> {
+        self.operator.compliance()
+    }
+}

@@ -1,0 +1,65 @@
+//! How a solve went: status, sweep by sweep, and the work it took.
+
+/// How a solve ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Status {
+    /// The judge's residual is at most the tolerance.
+    Certified,
+    /// The best state found is returned with its residuals; it is not certified.
+    NotConverged,
+    /// No admissible contact forces hold the body.
+    NoEquilibrium,
+}
+
+/// One sweep.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SweepRecord {
+    /// Natural-map residual at its end.
+    pub residual: f64,
+    /// Interior-point iterations of the normal half-step.
+    pub normal_iterations: usize,
+    /// Interior-point iterations of the friction half-step.
+    pub friction_iterations: usize,
+    /// Newton steps tried after the half-steps.
+    pub newton_steps: usize,
+    /// Contacts that are open, stick, slip at its end.
+    pub open_stick_slip: [usize; 3],
+    /// Wall time, in second.
+    pub seconds: f64,
+}
+
+/// Counts and seconds of a whole solve.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Work {
+    /// Gauss–Seidel passes of the prediction (or of the baseline).
+    pub passes: usize,
+    /// Sweeps.
+    pub sweeps: usize,
+    /// Normal programs handed to the cone solver.
+    pub normal_programs: usize,
+    /// Friction programs handed to the cone solver.
+    pub friction_programs: usize,
+    /// Interior-point iterations over all programs.
+    pub cone_iterations: usize,
+    /// Largest number of contacts that any friction program held.
+    pub friction_program_contacts: usize,
+    /// Newton steps.
+    pub newton_steps: usize,
+    /// Seconds of prediction, half-steps, finish, judge.
+    pub seconds: Seconds,
+}
+
+/// Wall time by stage of the outer loop, in second.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seconds {
+    /// Prediction.
+    pub predict: f64,
+    /// Normal half-steps.
+    pub normal: f64,
+    /// Friction half-steps.
+    pub friction: f64,
+    /// Newton finish.
+    pub finish: f64,
+    /// Judge.
+    pub judge: f64,
+}

@@ -1,0 +1,1 @@
+//! The pipeline: scene → bodies → condensation → outer loop → recovery → judge.

@@ -1,0 +1,1 @@
+//! REPORT: what the user reads.

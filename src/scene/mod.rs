@@ -1,0 +1,1 @@
+//! SCENE: what the user writes.
