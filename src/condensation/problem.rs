@@ -1,6 +1,7 @@
 //! The condensed contact problem: plain numbers between mechanics and solver.
 
-use faer::Mat;
+use faer::linalg::matmul::matmul;
+use faer::{Accum, ColMut, ColRef, Mat, get_global_parallelism};
 
 use super::Operator;
 use crate::error::{Error, check_finite, check_length};
@@ -122,5 +123,20 @@ impl ContactProblem {
     #[must_use]
     pub fn compliance(&self) -> &Mat<f64> {
         self.operator.compliance()
+    }
+
+    /// Displacement `u = û + G t` (C1) for a reaction per unknown, in metre.
+    #[must_use]
+    pub fn displacement(&self, reaction: &[f64]) -> Vec<f64> {
+        let mut displacement = self.free_displacement.clone();
+        matmul(
+            ColMut::from_slice_mut(&mut displacement),
+            Accum::Add,
+            self.compliance(),
+            ColRef::from_slice(reaction),
+            1.0,
+            get_global_parallelism(),
+        );
+        displacement
     }
 }

@@ -4,3 +4,17 @@
 //! (H1)  normal:    min ½ s_N·G_NN s_N + s_N·(û_N + G_NT t_T − g₀)    s.t.  s_N ≤ 0
 //! (H2)  friction:  min ½ s_T·G_TT s_T + s_T·(û_T + G_TN t_N)         s.t.  ‖s_T,i‖ ≤ −μ_i t_N,i
 //! ```
+//!
+//! (H1) finds the normal reactions while friction is held, (H2) friction while the
+//! normal reactions are held (Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333
+//! (2001) 1053–1058). Clarabel solves both on working sets.
+
+mod clarabel;
+mod elimination;
+mod friction;
+mod normal;
+mod reduced;
+
+pub use friction::FrictionHalfStep;
+pub use normal::NormalHalfStep;
+pub use reduced::{HalfStepWork, Role};

@@ -1,5 +1,22 @@
 //! How a solve went: status, sweep by sweep, and the work it took.
 
+use crate::kkt::Verdict;
+
+/// A solved contact problem.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Certified, or why not.
+    pub status: Status,
+    /// Reaction per unknown, in newton.
+    pub reaction: Vec<f64>,
+    /// The judge's last word: displacement, state of each contact, residuals.
+    pub verdict: Verdict,
+    /// One record per sweep.
+    pub history: Vec<SweepRecord>,
+    /// What it took.
+    pub work: Work,
+}
+
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {

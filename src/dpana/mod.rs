@@ -1,29 +1,29 @@
 //! OUTER LOOP: D-PANA, sweeps of normal and friction half-steps.
+//!
+//! ```text
+//! predict    which contacts are open, pressed, stuck
+//! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
+//! finish     semismooth Newton on the laws, kept only if the judge's residual falls
+//! stop       judge's natural-map residual ≤ tolerance
+//! ```
+//!
+//! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
+//! Software 35 (2004) 595–600.
 
+mod anderson;
+mod finish;
+mod gauss_seidel;
 mod history;
+mod prediction;
 mod settings;
+mod sweep;
 
-pub use history::{Seconds, Status, SweepRecord, Work};
+pub use history::{Outcome, Seconds, Status, SweepRecord, Work};
 pub use settings::{Settings, Variant};
 
 use crate::condensation::ContactProblem;
 use crate::error::Error;
-use crate::kkt::Verdict;
-
-/// A solved contact problem.
-#[derive(Clone, Debug)]
-pub struct Outcome {
-    /// Certified, or why not.
-    pub status: Status,
-    /// Reaction per unknown, in newton.
-    pub reaction: Vec<f64>,
-    /// The judge's last word: displacement, state of each contact, residuals.
-    pub verdict: Verdict,
-    /// One record per sweep.
-    pub history: Vec<SweepRecord>,
-    /// What it took.
-    pub work: Work,
-}
+use sweep::Run;
 
 /// Solves a condensed contact problem.
 ///
@@ -31,5 +31,39 @@ pub struct Outcome {
 ///
 /// Settings outside their range.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
-    todo!("{problem:?} {settings:?}")
+    settings.validate()?;
+    let mut run = Run::new(problem, settings);
+    match settings.variant {
+        Variant::Default => {
+            if !run.is_solved() {
+                run.predict();
+            }
+            while run.goes_on() {
+                run.begin_sweep();
+                run.normal_half_step();
+                run.accelerate();
+                run.friction_half_step();
+                run.judge();
+                run.newton_finish();
+                run.end_sweep();
+            }
+        }
+        Variant::Plain => {
+            while run.goes_on() {
+                run.begin_sweep();
+                run.normal_half_step();
+                run.friction_half_step();
+                run.judge();
+                run.end_sweep();
+            }
+        }
+        Variant::Nsgs => {
+            while run.goes_on() {
+                run.begin_sweep();
+                run.gauss_seidel_pass();
+                run.end_sweep();
+            }
+        }
+    }
+    Ok(run.into_outcome())
 }

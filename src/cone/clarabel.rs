@@ -1,0 +1,187 @@
+//! A convex quadratic program over non-positive numbers or discs, in Clarabel.
+//!
+//! ```text
+//! min ½ x·P x + q·x    s.t.  x ≤ 0            or    ‖x_i‖ ≤ b_i  for every disc i
+//! ```
+//!
+//! Numbers are scaled to order one before Clarabel sees them: each variable (each
+//! disc as a whole, so that it stays a disc) by the root of its diagonal of P, and
+//! the whole by the largest entry of q. Tolerances then mean the same in all units.
+
+use clarabel::algebra::CscMatrix;
+use clarabel::solver::{
+    DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT,
+    SecondOrderConeT, SupportedConeT,
+};
+use faer::MatRef;
+
+/// A program whose matrix and cones are set up, to be solved for many `q` and `b`.
+pub(crate) struct ConeProgram {
+    solver: DefaultSolver<f64>,
+    /// Variable `x` in units of the caller is `scale · σ` times Clarabel's.
+    scale: Vec<f64>,
+    /// First variable of each disc, and their number at the end; empty without discs.
+    discs: Vec<usize>,
+}
+
+/// What a solve of a cone program left.
+pub(crate) struct ConeSolution {
+    pub(crate) x: Vec<f64>,
+    pub(crate) iterations: usize,
+}
+
+impl ConeProgram {
+    /// `x ≤ 0`, one number per row of `quadratic` (dense symmetric; the upper triangle is read).
+    pub(crate) fn nonpositive(quadratic: MatRef<'_, f64>) -> Option<Self> {
+        let size = quadratic.nrows();
+        let scale = (0..size).map(|i| inverse_root(quadratic[(i, i)])).collect();
+        let rows = CscMatrix::identity(size);
+        Self::set_up(
+            quadratic,
+            scale,
+            rows,
+            &[NonnegativeConeT(size)],
+            Vec::new(),
+        )
+    }
+
+    /// Discs of the given dimensions (1 or 2), variables one disc after the other.
+    pub(crate) fn discs(quadratic: MatRef<'_, f64>, dimensions: &[usize]) -> Option<Self> {
+        let mut starts = vec![0];
+        let mut scale = Vec::new();
+        for &dimension in dimensions {
+            let start = starts[starts.len() - 1];
+            let trace: f64 = (start..start + dimension).map(|i| quadratic[(i, i)]).sum();
+            scale.extend(std::iter::repeat_n(
+                inverse_root(trace / dimension as f64),
+                dimension,
+            ));
+            starts.push(start + dimension);
+        }
+        let cones: Vec<_> = dimensions.iter().map(|d| SecondOrderConeT(d + 1)).collect();
+        Self::set_up(quadratic, scale, disc_rows(dimensions), &cones, starts)
+    }
+
+    fn set_up(
+        quadratic: MatRef<'_, f64>,
+        scale: Vec<f64>,
+        rows: CscMatrix<f64>,
+        cones: &[SupportedConeT<f64>],
+        discs: Vec<usize>,
+    ) -> Option<Self> {
+        let hessian = scaled_upper_triangle(quadratic, &scale);
+        let (q, b) = (vec![0.0; scale.len()], vec![0.0; rows.m]);
+        let settings = settings(INITIAL_TOLERANCE)?;
+        let solver = DefaultSolver::new(&hessian, &q, &rows, &b, cones, settings).ok()?;
+        Some(Self {
+            solver,
+            scale,
+            discs,
+        })
+    }
+
+    /// Solves for `linear` (q) and, with discs, `bounds` (b > 0); `None` if Clarabel refuses the numbers.
+    ///
+    /// An inexact answer is an answer: whoever calls judges it by the laws of contact.
+    pub(crate) fn solve(
+        &mut self,
+        linear: &[f64],
+        bounds: &[f64],
+        tolerance: f64,
+    ) -> Option<ConeSolution> {
+        let scaled: Vec<f64> = linear.iter().zip(&self.scale).map(|(q, d)| q * d).collect();
+        let sigma = scaled
+            .iter()
+            .fold(0.0_f64, |largest, q| largest.max(q.abs()));
+        if sigma == 0.0 {
+            return Some(ConeSolution {
+                x: vec![0.0; linear.len()],
+                iterations: 0,
+            });
+        }
+        let q: Vec<f64> = scaled.iter().map(|q| q / sigma).collect();
+        self.solver.update_settings(settings(tolerance)?).ok()?;
+        self.solver.update_q(&q).ok()?;
+        if !self.discs.is_empty() {
+            self.solver
+                .update_b(&self.disc_bounds(bounds, sigma))
+                .ok()?;
+        }
+        self.solver.solve();
+        let solution = &self.solver.solution;
+        if solution.x.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        let x = solution
+            .x
+            .iter()
+            .zip(&self.scale)
+            .map(|(x, d)| x * d * sigma)
+            .collect();
+        Some(ConeSolution {
+            x,
+            iterations: solution.iterations as usize,
+        })
+    }
+
+    /// Right-hand side: the bound first, then zeros for the disc's variables.
+    fn disc_bounds(&self, bounds: &[f64], sigma: f64) -> Vec<f64> {
+        let mut b = Vec::with_capacity(bounds.len() + self.scale.len());
+        for (disc, bound) in self.discs.windows(2).zip(bounds) {
+            b.push(bound / (self.scale[disc[0]] * sigma));
+            b.resize(b.len() + disc[1] - disc[0], 0.0);
+        }
+        b
+    }
+}
+
+/// Tolerance while a program is set up; every solve brings its own.
+const INITIAL_TOLERANCE: f64 = 1e-8;
+
+fn settings(tolerance: f64) -> Option<DefaultSettings<f64>> {
+    DefaultSettingsBuilder::default()
+        .verbose(false)
+        .presolve_enable(false)
+        .equilibrate_enable(false)
+        .direct_solve_method("faer".to_owned())
+        .tol_gap_abs(tolerance)
+        .tol_gap_rel(tolerance)
+        .tol_feas(tolerance)
+        .build()
+        .ok()
+}
+
+fn inverse_root(diagonal: f64) -> f64 {
+    if diagonal > 0.0 {
+        diagonal.sqrt().recip()
+    } else {
+        1.0
+    }
+}
+
+/// Upper triangle of `D P D`, column by column.
+fn scaled_upper_triangle(quadratic: MatRef<'_, f64>, scale: &[f64]) -> CscMatrix<f64> {
+    let size = scale.len();
+    let entries = size * (size + 1) / 2;
+    let (mut rows, mut values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
+    let mut columns = Vec::with_capacity(size + 1);
+    columns.push(0);
+    for j in 0..size {
+        rows.extend(0..=j);
+        values.extend((0..=j).map(|i| scale[i] * quadratic[(i, j)] * scale[j]));
+        columns.push(values.len());
+    }
+    CscMatrix::new(size, size, columns, rows, values)
+}
+
+/// `A` of `A x + s = b` with `s = (b, x)` per disc: −1 on the rows of x.
+fn disc_rows(dimensions: &[usize]) -> CscMatrix<f64> {
+    let mut rows = Vec::new();
+    let mut next = 0;
+    for &dimension in dimensions {
+        rows.extend(next + 1..=next + dimension);
+        next += dimension + 1;
+    }
+    let size = rows.len();
+    CscMatrix::new(next, size, (0..=size).collect(), rows, vec![-1.0; size])
+}

@@ -1,0 +1,156 @@
+//! The friction half-step (H2): friction with normal reactions held.
+
+use super::reduced::{Cones, HalfStepWork, ReducedProgram, Role};
+use crate::condensation::ContactProblem;
+
+/// A disc this much smaller than the largest is a point: its reaction is zero.
+const POINT: f64 = 1e-12;
+
+/// (H2) for one problem; a working set that stays the same is set up once.
+///
+/// ```text
+/// min ½ s_T·G_TT s_T + s_T·(û_T + G_TN t_N)    s.t.  ‖s_T,i‖ ≤ −μ_i t_N,i
+/// ```
+pub struct FrictionHalfStep<'a> {
+    problem: &'a ContactProblem,
+    held: Option<(Vec<Role>, ReducedProgram)>,
+}
+
+impl<'a> FrictionHalfStep<'a> {
+    /// The half-step of `problem`.
+    #[must_use]
+    pub fn new(problem: &'a ContactProblem) -> Self {
+        Self {
+            problem,
+            held: None,
+        }
+    }
+
+    /// Replaces the tangential part of `reaction` by the minimiser of (H2).
+    ///
+    /// `roles` is the prediction, one entry per contact; a contact whose disc is a
+    /// point comes back as [`Role::Absent`], one that breaks its prediction as
+    /// [`Role::Cone`]. `None` if the cone solver gives up.
+    pub fn solve(
+        &mut self,
+        reaction: &mut [f64],
+        roles: &mut [Role],
+        tolerance: f64,
+    ) -> Option<HalfStepWork> {
+        let bounds = self.friction_bounds(reaction);
+        self.drop_points(&bounds, roles);
+        for contact in 0..self.problem.contacts() {
+            reaction[self.tangents(contact)].fill(0.0);
+        }
+        let mut work = HalfStepWork::default();
+        if roles.iter().all(|&role| role == Role::Absent) {
+            return Some(work);
+        }
+        let linear = self.problem.displacement(reaction);
+        loop {
+            let x = self.minimise(&linear, &bounds, roles, tolerance, &mut work)?;
+            let mut kept = true;
+            for contact in 0..self.problem.contacts() {
+                let tangents = self.tangents(contact);
+                let size = norm(&x[tangents.clone()]);
+                if roles[contact] == Role::Free && size > bounds[contact] {
+                    roles[contact] = Role::Cone;
+                    kept = false;
+                }
+                // Clarabel may leave the disc by its tolerance.
+                let shrink = if size > bounds[contact] {
+                    bounds[contact] / size
+                } else {
+                    1.0
+                };
+                for unknown in tangents {
+                    reaction[unknown] = shrink * x[unknown];
+                }
+            }
+            if kept {
+                return Some(work);
+            }
+        }
+    }
+
+    /// `−μ t_N` per contact, in newton.
+    fn friction_bounds(&self, reaction: &[f64]) -> Vec<f64> {
+        let normals = self.problem.offsets().iter().zip(self.problem.friction());
+        normals.map(|(&n, mu)| -mu * reaction[n].min(0.0)).collect()
+    }
+
+    fn drop_points(&self, bounds: &[f64], roles: &mut [Role]) {
+        let largest = bounds
+            .iter()
+            .fold(0.0_f64, |largest, &bound| largest.max(bound));
+        for (contact, role) in roles.iter_mut().enumerate() {
+            if bounds[contact] <= POINT * largest || self.tangents(contact).is_empty() {
+                *role = Role::Absent;
+            } else if *role == Role::Absent {
+                *role = Role::Cone;
+            }
+        }
+    }
+
+    fn tangents(&self, contact: usize) -> std::ops::Range<usize> {
+        self.problem.offsets()[contact] + 1..self.problem.offsets()[contact + 1]
+    }
+
+    fn minimise(
+        &mut self,
+        linear: &[f64],
+        bounds: &[f64],
+        roles: &mut [Role],
+        tolerance: f64,
+        work: &mut HalfStepWork,
+    ) -> Option<Vec<f64>> {
+        if self.held.as_ref().is_none_or(|(held, _)| held != roles) {
+            let program = self.set_up(roles)?;
+            self.held = Some((roles.to_vec(), program));
+        }
+        let (roles, program) = self.held.as_mut()?;
+        let in_cones = bounds
+            .iter()
+            .zip(roles)
+            .filter(|(_, role)| **role == Role::Cone);
+        let radii: Vec<f64> = in_cones.map(|(&bound, _)| bound).collect();
+        let mut x = vec![0.0; linear.len()];
+        work.iterations += program.minimise(linear, &radii, tolerance, &mut x)?;
+        work.programs += usize::from(program.has_cones());
+        work.cones = work.cones.max(radii.len());
+        Some(x)
+    }
+
+    /// The program of `roles`; where G is singular on the free contacts they get their cones.
+    fn set_up(&self, roles: &mut [Role]) -> Option<ReducedProgram> {
+        let form = self.problem.compliance().as_ref();
+        let with = |roles: &[Role], role| -> Vec<usize> {
+            (0..roles.len()).filter(|&i| roles[i] == role).collect()
+        };
+        let unknowns = |contacts: &[usize]| -> Vec<usize> {
+            contacts
+                .iter()
+                .flat_map(|&contact| self.tangents(contact))
+                .collect()
+        };
+        let program = |free: &[usize], cone: &[usize]| {
+            let dimensions: Vec<usize> = cone.iter().map(|&i| self.tangents(i).len()).collect();
+            ReducedProgram::new(
+                form,
+                unknowns(free),
+                unknowns(cone),
+                &Cones::Discs(&dimensions),
+            )
+        };
+        program(&with(roles, Role::Free), &with(roles, Role::Cone)).or_else(|| {
+            for role in roles.iter_mut().filter(|role| **role == Role::Free) {
+                *role = Role::Cone;
+            }
+            program(&[], &with(roles, Role::Cone))
+        })
+    }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0_f64, |length, x| length.hypot(*x))
+}

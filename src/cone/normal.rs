@@ -1,0 +1,123 @@
+//! The normal half-step (H1): normal reactions with friction held.
+
+use super::reduced::{Cones, HalfStepWork, ReducedProgram, Role};
+use crate::condensation::ContactProblem;
+
+/// (H1) for one problem; a working set that stays the same is set up once.
+///
+/// ```text
+/// min ½ s_N·G_NN s_N + s_N·(û_N + G_NT t_T − g₀)    s.t.  s_N ≤ 0
+/// s_N ≤ 0,   gap = g₀ − u_N ≥ 0,   s_N · gap = 0
+/// ```
+pub struct NormalHalfStep<'a> {
+    problem: &'a ContactProblem,
+    held: Option<(Vec<Role>, ReducedProgram)>,
+}
+
+impl<'a> NormalHalfStep<'a> {
+    /// The half-step of `problem`.
+    #[must_use]
+    pub fn new(problem: &'a ContactProblem) -> Self {
+        Self {
+            problem,
+            held: None,
+        }
+    }
+
+    /// Replaces the normal part of `reaction` by the minimiser of (H1).
+    ///
+    /// `roles` is the prediction, one entry per contact; contacts that break it come
+    /// back as [`Role::Cone`]. `None` if the cone solver gives up.
+    pub fn solve(
+        &mut self,
+        reaction: &mut [f64],
+        roles: &mut [Role],
+        tolerance: f64,
+    ) -> Option<HalfStepWork> {
+        let normals = &self.problem.offsets()[..self.problem.contacts()];
+        for &n in normals {
+            reaction[n] = 0.0;
+        }
+        let mut linear = self.problem.displacement(reaction);
+        for (&n, g0) in normals.iter().zip(self.problem.initial_gap()) {
+            linear[n] -= g0;
+        }
+        let scale = normals
+            .iter()
+            .fold(0.0_f64, |largest, &n| largest.max(linear[n].abs()));
+        let mut work = HalfStepWork::default();
+        loop {
+            let x = self.minimise(&linear, roles, tolerance, &mut work)?;
+            for &n in normals {
+                reaction[n] = x[n];
+            }
+            let displacement = self.problem.displacement(reaction);
+            let mut kept = true;
+            for (contact, &n) in normals.iter().enumerate() {
+                let gap = self.problem.initial_gap()[contact] - displacement[n];
+                let broken = match roles[contact] {
+                    Role::Absent => gap < -tolerance * scale,
+                    Role::Free => x[n] > 0.0,
+                    Role::Cone => false,
+                };
+                if broken {
+                    roles[contact] = Role::Cone;
+                    kept = false;
+                }
+            }
+            if kept {
+                break;
+            }
+        }
+        for &n in normals {
+            reaction[n] = reaction[n].min(0.0);
+        }
+        Some(work)
+    }
+
+    fn minimise(
+        &mut self,
+        linear: &[f64],
+        roles: &mut [Role],
+        tolerance: f64,
+        work: &mut HalfStepWork,
+    ) -> Option<Vec<f64>> {
+        if self.held.as_ref().is_none_or(|(held, _)| held != roles) {
+            let program = self.set_up(roles)?;
+            self.held = Some((roles.to_vec(), program));
+        }
+        let (_, program) = self.held.as_mut()?;
+        let mut x = vec![0.0; linear.len()];
+        work.iterations += program.minimise(linear, &[], tolerance, &mut x)?;
+        work.programs += usize::from(program.has_cones());
+        work.cones = work
+            .cones
+            .max(roles.iter().filter(|&&role| role == Role::Cone).count());
+        Some(x)
+    }
+
+    /// The program of `roles`; where G is singular on the free contacts they get their cones.
+    fn set_up(&self, roles: &mut [Role]) -> Option<ReducedProgram> {
+        let normals = &self.problem.offsets()[..self.problem.contacts()];
+        let with = |roles: &[Role], role| -> Vec<usize> {
+            let pairs = normals.iter().zip(roles);
+            pairs
+                .filter(|&(_, &r)| r == role)
+                .map(|(&n, _)| n)
+                .collect()
+        };
+        let form = self.problem.compliance().as_ref();
+        let (free, cone) = (with(roles, Role::Free), with(roles, Role::Cone));
+        ReducedProgram::new(form, free, cone, &Cones::Nonpositive).or_else(|| {
+            for role in roles.iter_mut().filter(|role| **role == Role::Free) {
+                *role = Role::Cone;
+            }
+            ReducedProgram::new(
+                form,
+                Vec::new(),
+                with(roles, Role::Cone),
+                &Cones::Nonpositive,
+            )
+        })
+    }
+}

@@ -1,0 +1,248 @@
+//! The named steps of a solve, and the state they share.
+
+use std::time::Instant;
+
+use super::anderson::Anderson;
+use super::finish::Finish;
+use super::gauss_seidel::GaussSeidel;
+use super::prediction::Roles;
+use super::{Outcome, Settings, Status, SweepRecord, Variant, Work};
+use crate::condensation::ContactProblem;
+use crate::cone::{FrictionHalfStep, HalfStepWork, NormalHalfStep, Role};
+use crate::kkt::{ContactStatus, Judge, Verdict};
+
+/// The prediction stops when a pass changes the reaction by less than this, relative.
+const PREDICTED: f64 = 1e-2;
+
+/// Passes of the prediction at most.
+const PREDICTION_PASSES: usize = 40;
+
+/// Cone programs are solved to this part of the outer residual.
+const INEXACT: f64 = 1e-2;
+
+/// Tolerances of cone programs: the tightest and the loosest.
+const CONE_TOLERANCE: (f64, f64) = (1e-12, 1e-4);
+
+/// Newton steps after a sweep at most, and how many may pass without a better state.
+const NEWTON_STEPS: (usize, usize) = (12, 3);
+
+/// A solve in progress.
+pub(super) struct Run<'a> {
+    problem: &'a ContactProblem,
+    settings: &'a Settings,
+    judge: Judge<'a>,
+    normal: NormalHalfStep<'a>,
+    friction: FrictionHalfStep<'a>,
+    gauss_seidel: GaussSeidel<'a>,
+    anderson: Anderson,
+    roles: Roles,
+    /// The iterate, and the judge's word on it.
+    reaction: Vec<f64>,
+    verdict: Verdict,
+    /// The state of least residual so far.
+    best: (Vec<f64>, Verdict),
+    /// Normal reaction at the start of the sweep.
+    before: Vec<f64>,
+    record: SweepRecord,
+    sweep_start: Instant,
+    history: Vec<SweepRecord>,
+    work: Work,
+    failed: bool,
+}
+
+impl<'a> Run<'a> {
+    /// Starts from no reaction.
+    pub(super) fn new(problem: &'a ContactProblem, settings: &'a Settings) -> Self {
+        let judge = Judge::new(problem);
+        let reaction = vec![0.0; problem.unknowns()];
+        let verdict = judge.measure(&reaction);
+        Self {
+            problem,
+            settings,
+            judge,
+            normal: NormalHalfStep::new(problem),
+            friction: FrictionHalfStep::new(problem),
+            gauss_seidel: GaussSeidel::new(problem),
+            anderson: Anderson::default(),
+            roles: Roles::full(problem.contacts()),
+            best: (reaction.clone(), verdict.clone()),
+            before: Vec::new(),
+            reaction,
+            verdict,
+            record: SweepRecord::default(),
+            sweep_start: Instant::now(),
+            history: Vec::new(),
+            work: Work::default(),
+            failed: false,
+        }
+    }
+
+    /// The judge's residual of the best state is at most the tolerance.
+    pub(super) fn is_solved(&self) -> bool {
+        self.best.1.certificate.natural_map <= self.settings.tolerance
+    }
+
+    pub(super) fn goes_on(&self) -> bool {
+        !self.is_solved() && !self.failed && self.work.sweeps < self.settings.max_sweeps
+    }
+
+    /// A few Gauss–Seidel passes tell which contacts need a cone.
+    pub(super) fn predict(&mut self) {
+        let start = Instant::now();
+        for _ in 0..PREDICTION_PASSES {
+            self.work.passes += 1;
+            if self.gauss_seidel.pass(&mut self.reaction) < PREDICTED {
+                break;
+            }
+        }
+        self.work.seconds.predict += start.elapsed().as_secs_f64();
+        self.judge();
+    }
+
+    pub(super) fn begin_sweep(&mut self) {
+        self.work.sweeps += 1;
+        self.record = SweepRecord::default();
+        self.sweep_start = Instant::now();
+        self.before = self.normal_reaction();
+        if self.settings.variant == Variant::Default {
+            self.roles = Roles::predict(self.problem, &self.reaction, &self.verdict.displacement);
+        }
+    }
+
+    /// (H1).
+    pub(super) fn normal_half_step(&mut self) {
+        let start = Instant::now();
+        let (tolerance, roles) = (self.cone_tolerance(), &mut self.roles.normal);
+        let work = self.normal.solve(&mut self.reaction, roles, tolerance);
+        self.record.normal_iterations = self.count(work).iterations;
+        self.work.normal_programs += work.unwrap_or_default().programs;
+        self.work.seconds.normal += start.elapsed().as_secs_f64();
+    }
+
+    /// (D3) on the normal reaction, clipped to t_N ≤ 0.
+    pub(super) fn accelerate(&mut self) {
+        let image = self.normal_reaction();
+        let next = self.anderson.next(&self.before, &image);
+        for (contact, t) in next.iter().enumerate() {
+            self.reaction[self.problem.offsets()[contact]] = t.min(0.0);
+        }
+    }
+
+    /// (H2).
+    pub(super) fn friction_half_step(&mut self) {
+        let start = Instant::now();
+        let (tolerance, roles) = (self.cone_tolerance(), &mut self.roles.friction);
+        let work = self.friction.solve(&mut self.reaction, roles, tolerance);
+        self.record.friction_iterations = self.count(work).iterations;
+        let work = work.unwrap_or_default();
+        self.work.friction_programs += work.programs;
+        self.work.friction_program_contacts = self.work.friction_program_contacts.max(work.cones);
+        self.work.seconds.friction += start.elapsed().as_secs_f64();
+    }
+
+    pub(super) fn judge(&mut self) {
+        let start = Instant::now();
+        self.verdict = self.judge.measure(&self.reaction);
+        if self.verdict.certificate.natural_map < self.best.1.certificate.natural_map {
+            self.best = (self.reaction.clone(), self.verdict.clone());
+        }
+        self.work.seconds.judge += start.elapsed().as_secs_f64();
+    }
+
+    /// Newton steps from the iterate, which moves only to a state of smaller residual.
+    pub(super) fn newton_finish(&mut self) {
+        let start = Instant::now();
+        let Some(finish) = Finish::new(self.problem) else {
+            return;
+        };
+        let (mut reaction, mut verdict) = (self.reaction.clone(), self.verdict.clone());
+        let mut idle = 0;
+        while !self.is_solved()
+            && idle < NEWTON_STEPS.1
+            && self.record.newton_steps < NEWTON_STEPS.0
+        {
+            let Some(next) = finish.step(&reaction, &verdict.displacement) else {
+                break;
+            };
+            self.record.newton_steps += 1;
+            self.work.newton_steps += 1;
+            reaction = next;
+            verdict = self.judge.measure(&reaction);
+            idle += 1;
+            if verdict.certificate.natural_map < self.verdict.certificate.natural_map {
+                (self.reaction, self.verdict) = (reaction.clone(), verdict.clone());
+                idle = 0;
+            }
+            if verdict.certificate.natural_map < self.best.1.certificate.natural_map {
+                self.best = (reaction.clone(), verdict.clone());
+            }
+        }
+        self.work.seconds.finish += start.elapsed().as_secs_f64();
+    }
+
+    /// One pass of the baseline; the judge is asked when the pass changes little.
+    pub(super) fn gauss_seidel_pass(&mut self) {
+        let start = Instant::now();
+        self.work.passes += 1;
+        let change = self.gauss_seidel.pass(&mut self.reaction);
+        self.work.seconds.predict += start.elapsed().as_secs_f64();
+        if change <= self.settings.tolerance || self.work.sweeps == self.settings.max_sweeps {
+            self.judge();
+        }
+    }
+
+    pub(super) fn end_sweep(&mut self) {
+        let mut counts = [0; 3];
+        for status in &self.verdict.status {
+            counts[match status {
+                ContactStatus::Open => 0,
+                ContactStatus::Stick => 1,
+                ContactStatus::Slip => 2,
+            }] += 1;
+        }
+        self.record.residual = self.verdict.certificate.natural_map;
+        self.record.open_stick_slip = counts;
+        self.record.seconds = self.sweep_start.elapsed().as_secs_f64();
+        self.history.push(self.record);
+    }
+
+    pub(super) fn into_outcome(self) -> Outcome {
+        let status = if self.is_solved() {
+            Status::Certified
+        } else {
+            Status::NotConverged
+        };
+        let (reaction, verdict) = self.best;
+        Outcome {
+            status,
+            reaction,
+            verdict,
+            history: self.history,
+            work: self.work,
+        }
+    }
+
+    /// Tied to the outer residual; study sweeps are as exact as Clarabel can be.
+    fn cone_tolerance(&self) -> f64 {
+        let (tightest, loosest) = CONE_TOLERANCE;
+        match self.settings.variant {
+            Variant::Default => {
+                (INEXACT * self.verdict.certificate.natural_map).clamp(tightest, loosest)
+            }
+            _ => tightest,
+        }
+    }
+
+    fn normal_reaction(&self) -> Vec<f64> {
+        let normals = &self.problem.offsets()[..self.problem.contacts()];
+        normals.iter().map(|&n| self.reaction[n]).collect()
+    }
+
+    /// Books a half-step; one that the cone solver gave up ends the run.
+    fn count(&mut self, work: Option<HalfStepWork>) -> HalfStepWork {
+        self.failed |= work.is_none();
+        let work = work.unwrap_or_default();
+        self.work.cone_iterations += work.iterations;
+        work
+    }
+}
