@@ -39,6 +39,19 @@ pub enum Error {
         found: usize,
     },
 
+    /// A JSON text that does not hold what it should.
+    #[error("{file}, line {line}, column {column}: {reason}")]
+    Json {
+        /// Name of the file.
+        file: String,
+        /// Line, from one.
+        line: usize,
+        /// Column, from one.
+        column: usize,
+        /// What is wrong and what is accepted.
+        reason: String,
+    },
+
     /// The operator of a bare problem is not symmetric.
     #[error(
         "operator[{row}][{column}] differs from operator[{column}][{row}] by {violation:e} \

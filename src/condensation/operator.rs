@@ -7,6 +7,7 @@
 use std::sync::OnceLock;
 
 use faer::linalg::matmul::triangular::{self, BlockStructure};
+use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::{Accum, Mat, MatRef, Side, get_global_parallelism};
 
@@ -14,6 +15,12 @@ use crate::error::{Error, check_finite};
 
 /// Largest asymmetry `|G_ij − G_ji|` accepted, relative to the largest entry of G.
 const SYMMETRY: f64 = 1e-10;
+
+/// A pivot below this part of its diagonal entry makes G numerically singular.
+const PIVOT: f64 = 1e-10;
+
+/// Shift ε of a singular G, relative to its largest diagonal entry.
+const SHIFT: f64 = 1e-6;
 
 /// Compliance of the contact surface, symmetric positive semi-definite, in m/N.
 ///
@@ -110,7 +117,10 @@ impl Operator {
         &self.compliance
     }
 
-    /// S = G⁻¹, in N/m; none where G is not positive definite.
+    /// S = G⁻¹, in N/m.
+    ///
+    /// Where G is numerically singular (rigid bodies) this is `(G + ε 1)⁻¹`: good for
+    /// corrections of a state whose displacement is taken from G, not for the state itself.
     #[must_use]
     pub fn stiffness(&self) -> Option<&Mat<f64>> {
         self.stiffness
@@ -127,7 +137,7 @@ impl Operator {
                 BlockStructure::TriangularUpper,
             ));
         }
-        let cholesky = self.compliance.llt(Side::Lower).ok()?;
+        let cholesky = self.cholesky()?;
         let mut inverse = Mat::zeros(self.size(), self.size());
         invert_lower_triangular(inverse.as_mut(), cholesky.L(), get_global_parallelism());
         Some(symmetric_product(
@@ -136,6 +146,23 @@ impl Operator {
             inverse.as_ref(),
             BlockStructure::TriangularLower,
         ))
+    }
+
+    /// Factor of G, or of `G + ε 1` where G is numerically singular.
+    fn cholesky(&self) -> Option<Llt<f64>> {
+        let diagonal = |i: usize| self.compliance[(i, i)];
+        if let Ok(cholesky) = self.compliance.llt(Side::Lower) {
+            let lower = cholesky.L();
+            if (0..self.size()).all(|i| lower[(i, i)].powi(2) > PIVOT * diagonal(i)) {
+                return Some(cholesky);
+            }
+        }
+        let mut shifted = self.compliance.clone();
+        let shift = SHIFT * (0..self.size()).map(diagonal).fold(0.0, f64::max);
+        for i in 0..self.size() {
+            shifted[(i, i)] += shift;
+        }
+        shifted.llt(Side::Lower).ok()
     }
 }
 
@@ -191,9 +218,12 @@ mod tests {
     }
 
     #[test]
-    fn a_singular_compliance_has_no_stiffness() {
-        let operator = Operator::from_compliance(mat![[1.0, 0.0], [0.0, 0.0]]).unwrap();
-        assert!(operator.stiffness().is_none());
+    fn a_singular_compliance_has_the_stiffness_of_a_shifted_one() {
+        let operator = Operator::from_compliance(mat![[2.0, 0.0], [0.0, 0.0]]).unwrap();
+        let stiffness = operator.stiffness().unwrap();
+        // 1/(2 + 2e-6) and 1/2e-6.
+        assert!((stiffness[(0, 0)] - 0.499_999_5).abs() < 1e-12);
+        assert!((stiffness[(1, 1)] - 5e5).abs() < 1e-4);
     }
 
     #[test]

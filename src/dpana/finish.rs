@@ -15,9 +15,12 @@
 //! Reactions are kept and corrected by `S δu` with small `δu`, so that the digits of
 //! the result are those of `u = û + G t`, whatever the condition of S.
 
+use std::ops::Range;
+
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::{Accum, Col, Mat, get_global_parallelism};
+use faer::{Accum, Col, ColMut, ColRef, Mat, get_global_parallelism};
+use nalgebra::Matrix3;
 
 use crate::condensation::ContactProblem;
 
@@ -50,23 +53,24 @@ impl<'a> Finish<'a> {
 
     /// The reaction after one step from a reaction and its displacement; `None` if the step is singular.
     pub(super) fn step(&self, reaction: &[f64], displacement: &[f64]) -> Option<Vec<f64>> {
-        let states: Vec<State> = (0..self.problem.contacts())
-            .map(|contact| self.state(contact, reaction, displacement))
+        let laws: Vec<Law> = (0..self.problem.contacts())
+            .map(|contact| self.law(contact, self.state(contact, reaction, displacement)))
             .collect();
-        let unknowns = self.unknowns(&states);
-        let mut change = self.prescribed_change(&states, displacement);
-        let held = self.reaction_change(reaction, &change);
-        let (matrix, right) = self.equations(&states, &unknowns, &held, displacement);
+        let mut change = self.closing(&laws, displacement);
+        let held = self.reaction_after(reaction, &change);
+        let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.unknowns.clone()).collect();
+        let matrix = self.matrix(&laws, &unknowns);
+        let right = right_side(&laws, &held, displacement);
         let solution = matrix.partial_piv_lu().solve(&right);
         for (&unknown, &value) in unknowns.iter().zip(solution.iter()) {
             change[unknown] = value;
         }
-        let next = self.reaction_change(reaction, &change);
-        let next = self.snap(&states, next.iter().copied().collect());
+        let mut next = self.reaction_after(reaction, &change);
+        self.snap(&laws, &mut next);
         next.iter().all(|t| t.is_finite()).then_some(next)
     }
 
-    fn block(&self, contact: usize) -> std::ops::Range<usize> {
+    fn block(&self, contact: usize) -> Range<usize> {
         self.problem.offsets()[contact]..self.problem.offsets()[contact + 1]
     }
 
@@ -105,29 +109,50 @@ impl<'a> Finish<'a> {
         if trace > 0.0 { count / trace } else { 0.0 }
     }
 
-    fn unknowns(&self, states: &[State]) -> Vec<usize> {
-        let of_contact = |(contact, state): (usize, &State)| {
-            let block = self.block(contact);
-            match state {
-                State::Open => block,
-                State::Stick => block.end..block.end,
-                State::Slip { .. } => block.start + 1..block.end,
+    /// (D4) of one contact.
+    fn law(&self, contact: usize, state: State) -> Law {
+        let block = self.block(contact);
+        let (mut unknowns, mut on_reaction, mut on_displacement) =
+            (block.clone(), Matrix3::identity(), Matrix3::zeros());
+        match state {
+            State::Open => {}
+            State::Stick => unknowns = block.end..block.end,
+            State::Slip { direction, ratio } => {
+                unknowns.start += 1;
+                let (mu, step) = (
+                    self.problem.friction()[contact],
+                    self.tangential_step(contact),
+                );
+                on_reaction = Matrix3::zeros();
+                for a in 0..unknowns.len() {
+                    on_reaction[(a, 0)] = mu * direction[a];
+                    for b in 0..unknowns.len() {
+                        let unit = if a == b { 1.0 } else { 0.0 };
+                        let m = ratio * (unit - direction[a] * direction[b]);
+                        on_reaction[(a, 1 + b)] = unit - m;
+                        on_displacement[(a, 1 + b)] = step * m;
+                    }
+                }
             }
-        };
-        states.iter().enumerate().flat_map(of_contact).collect()
+        }
+        Law {
+            contact,
+            block,
+            state,
+            unknowns,
+            on_reaction,
+            on_displacement,
+        }
     }
 
-    /// `δu` of closed contacts: the gap closes, a stick contact returns.
-    fn prescribed_change(&self, states: &[State], displacement: &[f64]) -> Vec<f64> {
+    /// `δu` that closes the gap of pressed contacts and undoes the slip of sticking ones.
+    fn closing(&self, laws: &[Law], displacement: &[f64]) -> Vec<f64> {
         let mut change = vec![0.0; displacement.len()];
-        for (contact, state) in states.iter().enumerate() {
-            let block = self.block(contact);
-            if *state != State::Open {
-                change[block.start] =
-                    self.problem.initial_gap()[contact] - displacement[block.start];
-            }
-            if *state == State::Stick {
-                for unknown in block.skip(1) {
+        for law in laws.iter().filter(|law| law.state != State::Open) {
+            let n = law.block.start;
+            change[n] = self.problem.initial_gap()[law.contact] - displacement[n];
+            if law.state == State::Stick {
+                for unknown in n + 1..law.block.end {
                     change[unknown] = -displacement[unknown];
                 }
             }
@@ -136,100 +161,90 @@ impl<'a> Finish<'a> {
     }
 
     /// `t + S δu`.
-    fn reaction_change(&self, reaction: &[f64], change: &[f64]) -> Col<f64> {
-        let mut next = Col::from_fn(reaction.len(), |i| reaction[i]);
-        let change = Col::from_fn(change.len(), |i| change[i]);
-        let par = get_global_parallelism();
+    fn reaction_after(&self, reaction: &[f64], change: &[f64]) -> Vec<f64> {
+        let mut next = reaction.to_vec();
         matmul(
-            next.as_mut(),
+            ColMut::from_slice_mut(&mut next),
             Accum::Add,
             self.stiffness,
-            change.as_ref(),
+            ColRef::from_slice(change),
             1.0,
-            par,
+            get_global_parallelism(),
         );
         next
     }
 
-    /// Matrix and right-hand side of (D4) for `δu` at the unknowns.
-    fn equations(
-        &self,
-        states: &[State],
-        unknowns: &[usize],
-        held: &Col<f64>,
-        displacement: &[f64],
-    ) -> (Mat<f64>, Col<f64>) {
-        let size = unknowns.len();
-        let mut rows: Vec<[(usize, f64); 3]> = Vec::with_capacity(size);
-        let mut right = Col::zeros(size);
-        let mut diagonal: Vec<[(usize, f64); 2]> = Vec::with_capacity(size);
-        for (contact, state) in states.iter().enumerate() {
-            let block = self.block(contact);
-            let n = block.start;
-            match *state {
-                State::Stick => {}
-                State::Open => {
-                    for unknown in block {
-                        right[rows.len()] = -held[unknown];
-                        rows.push([(unknown, 1.0), (n, 0.0), (n, 0.0)]);
-                        diagonal.push([(0, 0.0); 2]);
-                    }
-                }
-                State::Slip { direction, ratio } => {
-                    let tangents = block.len() - 1;
-                    let (mu, step) = (
-                        self.problem.friction()[contact],
-                        self.tangential_step(contact),
-                    );
-                    let first = rows.len();
-                    for a in 0..tangents {
-                        let mut row = [(n, mu * direction[a]), (n, 0.0), (n, 0.0)];
-                        let mut own = [(0, 0.0); 2];
-                        for b in 0..tangents {
-                            let unit = f64::from(u8::from(a == b));
-                            let m = ratio * (unit - direction[a] * direction[b]);
-                            row[1 + b] = (n + 1 + b, unit - m);
-                            own[b] = (first + b, step * m);
-                            right[first + a] -= step * m * displacement[n + 1 + b];
-                        }
-                        right[first + a] -= row.iter().map(|&(k, c)| c * held[k]).sum::<f64>();
-                        rows.push(row);
-                        diagonal.push(own);
+    /// Matrix of (D4) for `δu` at the unknowns.
+    fn matrix(&self, laws: &[Law], unknowns: &[usize]) -> Mat<f64> {
+        let mut matrix = Mat::zeros(unknowns.len(), unknowns.len());
+        for (j, &unknown) in unknowns.iter().enumerate() {
+            let (stiffness, column) = (
+                self.stiffness.col_as_slice(unknown),
+                matrix.col_as_slice_mut(j),
+            );
+            let mut rows = column.iter_mut();
+            for law in laws {
+                for (row, entry) in (0..law.unknowns.len()).zip(&mut rows) {
+                    *entry = law.reaction_row(row, stiffness);
+                    if law.block.contains(&unknown) {
+                        *entry += law.on_displacement[(row, unknown - law.block.start)];
                     }
                 }
             }
         }
-        let mut matrix = Mat::from_fn(size, size, |i, j| {
-            rows[i]
-                .iter()
-                .map(|&(k, c)| c * self.stiffness[(unknowns[j], k)])
-                .sum()
-        });
-        for (i, own) in diagonal.iter().enumerate() {
-            for &(j, value) in own {
-                matrix[(i, j)] += value;
-            }
-        }
-        (matrix, right)
+        matrix
     }
 
     /// What holds exactly at a solution is made exact: no reaction when open, friction on its disc when slipping.
-    fn snap(&self, states: &[State], mut reaction: Vec<f64>) -> Vec<f64> {
-        for (contact, state) in states.iter().enumerate() {
-            let block = self.block(contact);
-            match *state {
-                State::Open => reaction[block].fill(0.0),
+    fn snap(&self, laws: &[Law], reaction: &mut [f64]) {
+        for law in laws {
+            match law.state {
                 State::Stick => {}
+                State::Open => reaction[law.block.clone()].fill(0.0),
                 State::Slip { .. } => {
-                    let bound = -self.problem.friction()[contact] * reaction[block.start].min(0.0);
-                    let tangents = &mut reaction[block.start + 1..block.end];
+                    let normal = reaction[law.block.start].min(0.0);
+                    let tangents = &mut reaction[law.unknowns.clone()];
                     let size = tangents.iter().fold(0.0_f64, |size, t| size.hypot(*t));
+                    let bound = -self.problem.friction()[law.contact] * normal;
                     if size > 0.0 {
                         tangents.iter_mut().for_each(|t| *t *= bound / size);
                     }
                 }
             }
         }
-        reaction
     }
+}
+
+/// (D4) of one contact: `on_reaction · t + on_displacement · u = 0` on its block, a row
+/// per unknown.
+struct Law {
+    contact: usize,
+    block: Range<usize>,
+    state: State,
+    unknowns: Range<usize>,
+    on_reaction: Matrix3<f64>,
+    on_displacement: Matrix3<f64>,
+}
+
+impl Law {
+    /// A row of `on_reaction` times this block of `reaction`.
+    fn reaction_row(&self, row: usize, reaction: &[f64]) -> f64 {
+        let block = reaction[self.block.clone()].iter().enumerate();
+        block.map(|(k, t)| self.on_reaction[(row, k)] * t).sum()
+    }
+
+    /// A row of `on_displacement` times this block of `displacement`.
+    fn displacement_row(&self, row: usize, displacement: &[f64]) -> f64 {
+        let block = displacement[self.block.clone()].iter().enumerate();
+        block.map(|(k, u)| self.on_displacement[(row, k)] * u).sum()
+    }
+}
+
+/// Minus the residual of (D4) with closed gaps and returned stick contacts.
+fn right_side(laws: &[Law], held: &[f64], displacement: &[f64]) -> Col<f64> {
+    let rows = laws.iter().flat_map(|law| {
+        let residual = |row| law.reaction_row(row, held) + law.displacement_row(row, displacement);
+        (0..law.unknowns.len()).map(move |row| -residual(row))
+    });
+    rows.collect()
 }

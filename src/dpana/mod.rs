@@ -35,10 +35,12 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
     let mut run = Run::new(problem, settings);
     match settings.variant {
         Variant::Default => {
-            if !run.is_solved() {
+            let mut cold = !run.is_solved();
+            if cold {
                 run.predict();
             }
-            while run.goes_on() {
+            while cold || run.goes_on() {
+                cold = false;
                 run.begin_sweep();
                 run.normal_half_step();
                 run.accelerate();

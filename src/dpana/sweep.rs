@@ -8,7 +8,7 @@ use super::gauss_seidel::GaussSeidel;
 use super::prediction::Roles;
 use super::{Outcome, Settings, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
-use crate::cone::{FrictionHalfStep, HalfStepWork, NormalHalfStep, Role};
+use crate::cone::{FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge, Verdict};
 
 /// The prediction stops when a pass changes the reaction by less than this, relative.

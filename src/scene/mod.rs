@@ -1,1 +1,5 @@
 //! SCENE: what the user writes.
+
+mod bare;
+
+pub use bare::BareProblem;
