@@ -154,3 +154,59 @@ impl<'a> FrictionHalfStep<'a> {
 fn norm(vector: &[f64]) -> f64 {
     vector.iter().fold(0.0_f64, |length, x| length.hypot(*x))
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::Operator;
+    use faer::Mat;
+
+    /// Three uncoupled contacts in 3D, G = 1, μ = 1/4, û_T = (3, 4), (0.1, 0), (1, 0).
+    fn problem() -> ContactProblem {
+        let operator = Operator::from_compliance(Mat::identity(9, 9)).unwrap();
+        let free = vec![0.0, 3.0, 4.0, 0.0, 0.1, 0.0, 0.0, 1.0, 0.0];
+        ContactProblem::new(&[2; 3], vec![0.25; 3], vec![0.0; 3], free, operator).unwrap()
+    }
+
+    /// With t_N = −10, −10, 0 the discs are 2.5, 2.5 and a point: the first slips with
+    /// t_T = −2.5 · (0.6, 0.8), the second sticks with t_T = −û_T, the third has none.
+    fn solve(roles: &mut [Role]) -> (Vec<f64>, HalfStepWork) {
+        let problem = problem();
+        let mut reaction = vec![-10.0, 0.0, 0.0, -10.0, 0.0, 0.0, 0.0, 0.0, 0.0];
+        let work = FrictionHalfStep::new(&problem)
+            .solve(&mut reaction, roles, 1e-10)
+            .unwrap();
+        let expected = [-10.0, -1.5, -2.0, -10.0, -0.1, 0.0, 0.0, 0.0, 0.0];
+        let error = reaction
+            .iter()
+            .zip(expected)
+            .map(|(t, e)| (t - e).abs())
+            .fold(0.0, f64::max);
+        assert!(error < 1e-6, "{reaction:?}");
+        (reaction, work)
+    }
+
+    #[test]
+    fn slip_stick_and_an_open_contact_come_out_of_the_full_program() {
+        let mut roles = [Role::Cone; 3];
+        let (_, work) = solve(&mut roles);
+        assert_eq!((work.programs, work.cones, roles[2]), (1, 2, Role::Absent));
+    }
+
+    #[test]
+    fn a_stuck_contact_needs_no_cone() {
+        let (reaction, work) = solve(&mut [Role::Cone, Role::Free, Role::Cone]);
+        assert_eq!((reaction[4], work.cones), (-0.1, 1));
+    }
+
+    #[test]
+    fn a_contact_wrongly_taken_as_stuck_gets_its_disc_back() {
+        let mut roles = [Role::Free, Role::Free, Role::Absent];
+        let (_, work) = solve(&mut roles);
+        assert_eq!(
+            (work.cones, roles),
+            (1, [Role::Cone, Role::Free, Role::Absent])
+        );
+    }
+}

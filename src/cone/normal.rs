@@ -121,3 +121,70 @@ impl<'a> NormalHalfStep<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::Operator;
+    use faer::mat;
+
+    /// G = [[2, 1], [1, 2]], û = (1, −3), g₀ = 0: contact 0 is pressed with t = −1/2,
+    /// contact 1 is open with u = −3.5.
+    fn problem() -> ContactProblem {
+        let operator = Operator::from_compliance(mat![[2.0, 1.0], [1.0, 2.0]]).unwrap();
+        ContactProblem::new(
+            &[0, 0],
+            vec![0.0; 2],
+            vec![0.0; 2],
+            vec![1.0, -3.0],
+            operator,
+        )
+        .unwrap()
+    }
+
+    #[test]
+    fn a_pressed_and_an_open_contact_come_out_of_the_full_program() {
+        let problem = problem();
+        let mut reaction = vec![0.0; 2];
+        let mut roles = [Role::Cone; 2];
+        let work = NormalHalfStep::new(&problem)
+            .solve(&mut reaction, &mut roles, 1e-10)
+            .unwrap();
+        assert!(
+            (reaction[0] + 0.5).abs() < 1e-6 && reaction[1].abs() < 1e-6,
+            "{reaction:?}"
+        );
+        assert_eq!((work.programs, work.cones), (1, 2));
+    }
+
+    #[test]
+    fn a_right_prediction_needs_no_program() {
+        let problem = problem();
+        let mut reaction = vec![0.0; 2];
+        let mut roles = [Role::Free, Role::Absent];
+        let work = NormalHalfStep::new(&problem)
+            .solve(&mut reaction, &mut roles, 1e-10)
+            .unwrap();
+        assert!(
+            (reaction[0] + 0.5).abs() < 1e-15 && reaction[1] == 0.0,
+            "{reaction:?}"
+        );
+        assert_eq!(work, HalfStepWork::default());
+    }
+
+    #[test]
+    fn a_wrong_prediction_gets_its_cones_back() {
+        let problem = problem();
+        let mut reaction = vec![0.0; 2];
+        let mut roles = [Role::Absent, Role::Free];
+        let work = NormalHalfStep::new(&problem)
+            .solve(&mut reaction, &mut roles, 1e-10)
+            .unwrap();
+        assert!(
+            (reaction[0] + 0.5).abs() < 1e-6 && reaction[1].abs() < 1e-6,
+            "{reaction:?}"
+        );
+        assert!(work.programs >= 1 && roles == [Role::Cone; 2]);
+    }
+}

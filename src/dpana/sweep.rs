@@ -18,10 +18,10 @@ const PREDICTED: f64 = 1e-2;
 const PREDICTION_PASSES: usize = 40;
 
 /// Cone programs are solved to this part of the outer residual.
-const INEXACT: f64 = 1e-2;
+const INEXACT: f64 = 1e-1;
 
 /// Tolerances of cone programs: the tightest and the loosest.
-const CONE_TOLERANCE: (f64, f64) = (1e-12, 1e-4);
+const CONE_TOLERANCE: (f64, f64) = (1e-12, 1e-2);
 
 /// Newton steps after a sweep at most, and how many may pass without a better state.
 const NEWTON_STEPS: (usize, usize) = (12, 3);
