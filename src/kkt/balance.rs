@@ -1,0 +1,415 @@
+//! Equilibrium of the whole body, from its recovered displacement.
+//!
+//! ```text
+//! (K4)  K u = f + c + s      f loads, c contact forces, s support reactions, at every node
+//!       Σ f + Σ c + Σ s = 0,   Σ x × (f + c + s) = 0
+//! ```
+//!
+//! Where a displacement is free, `s` must vanish: what is left of it is the residual.
+//! The certificate of (L1)–(L3) speaks of the condensed problem; that the body holds
+//! the same displacements at its contact nodes is measured here as well.
+
+use sprs::CsMat;
+
+use super::certificate::Worst;
+use super::natural_map::largest;
+use super::resultant::{self, Defect, Resultant, total_length};
+use crate::body::Body;
+use crate::condensation::{ContactNode, ContactProblem, ContactSurface};
+use crate::error::{Error, check_length};
+
+/// A body with everything that acts on it; unknown `node · dimension + axis`.
+#[derive(Clone, Copy, Debug)]
+pub struct BodyState<'a> {
+    /// Mesh and supports.
+    pub body: &'a Body,
+    /// K, both triangles, in N/m.
+    pub stiffness: &'a CsMat<f64>,
+    /// f per unknown, in newton.
+    pub load: &'a [f64],
+    /// Given displacement per unknown, in metre; `None` where free.
+    pub prescribed: &'a [Option<f64>],
+    /// Contact nodes and frames.
+    pub surface: &'a ContactSurface,
+    /// The condensed problem on that surface.
+    pub problem: &'a ContactProblem,
+    /// Contact reaction per contact unknown, in newton.
+    pub reaction: &'a [f64],
+    /// Displacement per contact unknown as the judge computed it, in metre.
+    pub contact_displacement: &'a [f64],
+    /// Recovered displacement per unknown of the body, in metre.
+    pub displacement: &'a [f64],
+}
+
+/// A residual with the node where it is worst.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct WorstNode {
+    /// Size in physical units.
+    pub value: f64,
+    /// The same, divided by the scale of that unit.
+    pub scaled: f64,
+    /// Node of the mesh.
+    pub node: usize,
+}
+
+/// Equilibrium (K4), measured.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Balance {
+    /// Largest force that nothing carries at a free displacement, in newton; scaled by
+    /// the largest nodal load, contact force or support reaction.
+    pub equilibrium: WorstNode,
+    /// Largest departure from a given displacement, in metre; scaled by the largest displacement.
+    pub support: WorstNode,
+    /// Largest difference between the body's and the condensed displacement of a contact,
+    /// in metre; scaled by the largest displacement.
+    pub surface: Worst,
+    /// Given forces.
+    pub loads: Resultant,
+    /// Contact forces on the body.
+    pub contact: Resultant,
+    /// Support reactions on the body.
+    pub supports: Resultant,
+    /// Length of the sum of all forces.
+    pub force_defect: Defect,
+    /// Length of the sum of all moments; scaled by the sum of forces at the farthest node.
+    pub moment_defect: Defect,
+}
+
+/// Measures (K4).
+///
+/// # Errors
+///
+/// [`Error::Length`] if arrays do not belong together, [`Error::OutOfRange`] if a
+/// contact stands at a node that the mesh does not have.
+pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
+    check(state)?;
+    let contact = nodal_contact_forces(state);
+    let support = support_reactions(state, &contact);
+    let held: Vec<f64> = keep(&support, |k| state.prescribed[k].is_some());
+    let loose: Vec<f64> = keep(&support, |k| state.prescribed[k].is_none());
+
+    let (nodes, dimension) = (&state.body.mesh.nodes, state.body.mesh.dimension);
+    let force = largest(state.load)
+        .max(largest(&contact))
+        .max(largest(&held));
+    let length = largest(state.displacement);
+    let parts = [state.load, &contact, &held];
+    let [loads, on_contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
+    let total: f64 = parts.iter().map(|part| total_length(part, dimension)).sum();
+    let reach = nodes
+        .iter()
+        .map(|&x| resultant::length(x))
+        .fold(0.0, f64::max);
+    Ok(Balance {
+        equilibrium: worst_node(&loose, force, dimension),
+        support: worst_node(&support_departure(state), length, dimension),
+        surface: surface_departure(state).over(length),
+        loads,
+        contact: on_contact,
+        supports,
+        force_defect: Defect::of([loads.force, on_contact.force, supports.force], total),
+        moment_defect: Defect::of(
+            [loads.moment, on_contact.moment, supports.moment],
+            total * reach,
+        ),
+    })
+}
+
+/// Force of one contact on the body in global axes, in newton, from its block of the reaction.
+#[must_use]
+pub fn global_force(contact: &ContactNode, block: &[f64]) -> [f64; 3] {
+    let mut force = [0.0; 3];
+    for (direction, t) in contact.frame.iter().zip(block) {
+        for axis in 0..3 {
+            force[axis] += t * direction[axis];
+        }
+    }
+    force
+}
+
+fn check(state: &BodyState<'_>) -> Result<(), Error> {
+    let nodes = state.body.mesh.nodes.len();
+    let (size, unknowns) = (nodes * state.body.mesh.dimension, state.problem.unknowns());
+    check_length("stiffness rows", size, state.stiffness.rows())?;
+    check_length("stiffness columns", size, state.stiffness.cols())?;
+    check_length("load", size, state.load.len())?;
+    check_length("prescribed", size, state.prescribed.len())?;
+    check_length("displacement", size, state.displacement.len())?;
+    check_length(
+        "contact nodes",
+        state.problem.contacts(),
+        state.surface.nodes.len(),
+    )?;
+    check_length("reaction", unknowns, state.reaction.len())?;
+    check_length(
+        "contact_displacement",
+        unknowns,
+        state.contact_displacement.len(),
+    )?;
+    match state
+        .surface
+        .nodes
+        .iter()
+        .position(|contact| contact.node >= nodes)
+    {
+        None => Ok(()),
+        Some(contact) => Err(Error::OutOfRange {
+            place: format!("contact nodes[{contact}]"),
+            value: state.surface.nodes[contact].node as f64,
+            accepted: "a node of the mesh",
+        }),
+    }
+}
+
+/// c of (K4), per unknown of the body.
+fn nodal_contact_forces(state: &BodyState<'_>) -> Vec<f64> {
+    let dimension = state.body.mesh.dimension;
+    let mut forces = vec![0.0; state.load.len()];
+    for (contact, ends) in state
+        .surface
+        .nodes
+        .iter()
+        .zip(state.problem.offsets().windows(2))
+    {
+        let force = global_force(contact, &state.reaction[ends[0]..ends[1]]);
+        for axis in 0..dimension {
+            forces[contact.node * dimension + axis] += force[axis];
+        }
+    }
+    forces
+}
+
+/// s = K u − f − c of (K4), per unknown of the body.
+fn support_reactions(state: &BodyState<'_>, contact: &[f64]) -> Vec<f64> {
+    let u = state.displacement;
+    let rows = state.stiffness.outer_iterator();
+    rows.zip(state.load.iter().zip(contact))
+        .map(|(row, (f, c))| row.iter().map(|(k, entry)| entry * u[k]).sum::<f64>() - f - c)
+        .collect()
+}
+
+fn support_departure(state: &BodyState<'_>) -> Vec<f64> {
+    let pairs = state.prescribed.iter().zip(state.displacement);
+    pairs
+        .map(|(given, u)| given.map_or(0.0, |given| u - given))
+        .collect()
+}
+
+fn surface_departure(state: &BodyState<'_>) -> Worst {
+    let dimension = state.body.mesh.dimension;
+    let mut worst = Worst::default();
+    for (i, contact) in state.surface.nodes.iter().enumerate() {
+        let u = &state.displacement[contact.node * dimension..][..dimension];
+        let (start, end) = (state.problem.offsets()[i], state.problem.offsets()[i + 1]);
+        for (direction, condensed) in contact
+            .frame
+            .iter()
+            .zip(&state.contact_displacement[start..end])
+        {
+            let along: f64 = direction.iter().zip(u).map(|(d, u)| d * u).sum();
+            worst.raise((along - condensed).abs(), i);
+        }
+    }
+    worst
+}
+
+fn worst_node(values: &[f64], scale: f64, dimension: usize) -> WorstNode {
+    let mut worst = Worst::default();
+    for (unknown, value) in values.iter().enumerate() {
+        worst.raise(value.abs(), unknown);
+    }
+    let Worst {
+        value,
+        scaled,
+        contact: unknown,
+    } = worst.over(scale);
+    WorstNode {
+        value,
+        scaled,
+        node: unknown / dimension.max(1),
+    }
+}
+
+fn keep(values: &[f64], kept: impl Fn(usize) -> bool) -> Vec<f64> {
+    let entries = values.iter().enumerate();
+    entries
+        .map(|(k, &value)| if kept(k) { value } else { 0.0 })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::mat;
+    use sprs::TriMat;
+
+    use super::*;
+    use crate::body::{Mesh, Model};
+    use crate::condensation::Operator;
+
+    /// A spring of 4 N/m from a held node (3, 1) down to a contact node (3, 0), which a
+    /// load of 10 N pushes 0.5 m down onto a plane: the spring takes 2 N, the plane 8 N.
+    struct Spring {
+        body: Body,
+        stiffness: CsMat<f64>,
+        surface: ContactSurface,
+        problem: ContactProblem,
+    }
+
+    const LOAD: [f64; 4] = [0.0, 0.0, 0.0, -10.0];
+    const PRESCRIBED: [Option<f64>; 4] = [Some(0.0), Some(0.0), None, None];
+
+    impl Spring {
+        fn new() -> Self {
+            let mut entries = TriMat::new((4, 4));
+            for (row, column, k) in [(1, 1, 4.0), (1, 3, -4.0), (3, 1, -4.0), (3, 3, 4.0)] {
+                entries.add_triplet(row, column, k);
+            }
+            let contact = ContactNode {
+                node: 1,
+                pair: 0,
+                position: [3.0, 0.0, 0.0],
+                frame: [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+                tangents: 0,
+                initial_gap: 0.5,
+                area: 1.0,
+                rim: false,
+            };
+            let operator = Operator::from_compliance(mat![[0.25]]).unwrap();
+            Self {
+                body: Body {
+                    name: "spring".into(),
+                    mesh: Mesh::new(2, vec![[3.0, 1.0, 0.0], [3.0, 0.0, 0.0]]),
+                    model: Model::PlaneStrain,
+                    materials: vec![],
+                    material_of_cell: vec![],
+                    supports: vec![],
+                    loads: vec![],
+                },
+                stiffness: entries.to_csr(),
+                surface: ContactSurface {
+                    nodes: vec![contact],
+                    ..Default::default()
+                },
+                problem: ContactProblem::new(&[0], vec![0.0], vec![0.5], vec![2.5], operator)
+                    .unwrap(),
+            }
+        }
+
+        fn balance(
+            &self,
+            reaction: f64,
+            contact: f64,
+            displacement: &[f64],
+        ) -> Result<Balance, Error> {
+            balance(&BodyState {
+                body: &self.body,
+                stiffness: &self.stiffness,
+                load: &LOAD,
+                prescribed: &PRESCRIBED,
+                surface: &self.surface,
+                problem: &self.problem,
+                reaction: &[reaction],
+                contact_displacement: &[contact],
+                displacement,
+            })
+        }
+    }
+
+    #[test]
+    fn the_spring_and_the_plane_share_the_load() {
+        let found = Spring::new()
+            .balance(-8.0, 0.5, &[0.0, 0.0, 0.0, -0.5])
+            .unwrap();
+        assert_eq!(found.loads.force, [0.0, -10.0, 0.0]);
+        assert_eq!(found.contact.force, [0.0, 8.0, 0.0]);
+        assert_eq!(found.supports.force, [0.0, 2.0, 0.0]);
+        // All act along x = 3.
+        assert_eq!(found.contact.moment, [0.0, 0.0, 24.0]);
+        assert_eq!(
+            (
+                found.equilibrium.value,
+                found.support.value,
+                found.surface.value
+            ),
+            (0.0, 0.0, 0.0)
+        );
+        assert_eq!(
+            (found.force_defect.value, found.moment_defect.value),
+            (0.0, 0.0)
+        );
+    }
+
+    #[test]
+    fn a_missing_contact_force_is_found_at_its_node() {
+        // K u − f − c = −2 + 10 − 3 = 5 N at node 1; largest nodal force: the load.
+        let found = Spring::new()
+            .balance(-3.0, 0.5, &[0.0, 0.0, 0.0, -0.5])
+            .unwrap();
+        let expected = WorstNode {
+            value: 5.0,
+            scaled: 0.5,
+            node: 1,
+        };
+        assert_eq!(found.equilibrium, expected);
+        // −10 + 3 + 2 = −5 N of 15 N; moment 3 m · 5 N of 15 N · √10 m.
+        assert_eq!(
+            (found.force_defect.value, found.force_defect.scaled),
+            (5.0, 5.0 / 15.0)
+        );
+        assert!((found.moment_defect.scaled - 1.0 / 10.0_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_support_that_gives_way_is_measured() {
+        let found = Spring::new()
+            .balance(-8.0, 0.5, &[0.1, 0.0, 0.0, -0.5])
+            .unwrap();
+        assert_eq!(
+            found.support,
+            WorstNode {
+                value: 0.1,
+                scaled: 0.2,
+                node: 0
+            }
+        );
+    }
+
+    #[test]
+    fn a_body_that_does_not_follow_the_condensed_problem_is_caught() {
+        let found = Spring::new()
+            .balance(-8.0, 0.75, &[0.0, 0.0, 0.0, -0.5])
+            .unwrap();
+        assert_eq!(
+            found.surface,
+            Worst {
+                value: 0.25,
+                scaled: 0.5,
+                contact: 0
+            }
+        );
+    }
+
+    #[test]
+    fn a_nan_is_an_infinite_residual() {
+        let found = Spring::new()
+            .balance(f64::NAN, 0.5, &[0.0, 0.0, 0.0, -0.5])
+            .unwrap();
+        assert_eq!(found.equilibrium.value, f64::INFINITY);
+        assert_eq!(found.force_defect.scaled, f64::INFINITY);
+    }
+
+    #[test]
+    fn arrays_of_another_body_and_unknown_nodes_are_refused() {
+        let mut spring = Spring::new();
+        assert!(matches!(
+            spring.balance(0.0, 0.0, &[0.0; 3]),
+            Err(Error::Length { .. })
+        ));
+        spring.surface.nodes[0].node = 7;
+        assert!(matches!(
+            spring.balance(0.0, 0.0, &[0.0; 4]),
+            Err(Error::OutOfRange { .. })
+        ));
+    }
+}

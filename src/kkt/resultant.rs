@@ -1,0 +1,103 @@
+//! Sums of nodal forces and of their moments.
+
+use super::certificate::{infinite_if_nan, ratio};
+
+/// Sum of forces and of their moments.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Resultant {
+    /// Force in global axes, in newton.
+    pub force: [f64; 3],
+    /// Moment about the origin, in newton metre.
+    pub moment: [f64; 3],
+}
+
+/// What is left of a sum that should vanish.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Defect {
+    /// Length of the sum, in newton or newton metre.
+    pub value: f64,
+    /// The same, divided by the sum of the lengths of what was added.
+    pub scaled: f64,
+}
+
+impl Resultant {
+    /// Adds a force, in newton, that acts at a position, in metre.
+    pub fn add(&mut self, [x, y, z]: [f64; 3], force: [f64; 3]) {
+        let [f_x, f_y, f_z] = force;
+        let moment = [y * f_z - z * f_y, z * f_x - x * f_z, x * f_y - y * f_x];
+        for axis in 0..3 {
+            self.force[axis] += force[axis];
+            self.moment[axis] += moment[axis];
+        }
+    }
+
+    /// Sums nodal forces, `dimension` entries per node.
+    pub(super) fn of(positions: &[[f64; 3]], forces: &[f64], dimension: usize) -> Self {
+        let mut sum = Self::default();
+        for (&position, force) in positions.iter().zip(nodal(forces, dimension)) {
+            sum.add(position, force);
+        }
+        sum
+    }
+}
+
+impl Defect {
+    /// The length of a sum of vectors, compared with `scale`.
+    pub(super) fn of(parts: [[f64; 3]; 3], scale: f64) -> Self {
+        let sum = [0, 1, 2].map(|axis| parts.iter().map(|part| part[axis]).sum());
+        let value = infinite_if_nan(length(sum));
+        let scaled = ratio(value, scale);
+        Self { value, scaled }
+    }
+}
+
+/// `Σ ‖F‖` over the nodes, in newton.
+pub(super) fn total_length(forces: &[f64], dimension: usize) -> f64 {
+    nodal(forces, dimension).map(length).sum()
+}
+
+/// Length of a vector.
+pub(super) fn length([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).hypot(z)
+}
+
+/// The forces node by node, padded with zeros to three axes.
+fn nodal(forces: &[f64], dimension: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+    let blocks = forces.chunks_exact(dimension.max(1));
+    blocks.map(|block| [0, 1, 2].map(|axis| block.get(axis).copied().unwrap_or(0.0)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_couple_has_a_moment_and_no_force() {
+        // 5 N up at x = 2 and 5 N down at x = −1: 3 m · 5 N about z, anywhere.
+        let sum = Resultant::of(
+            &[[2.0, 9.0, 0.0], [-1.0, 7.0, 0.0]],
+            &[0.0, 5.0, 0.0, -5.0],
+            2,
+        );
+        assert_eq!((sum.force, sum.moment), ([0.0; 3], [0.0, 0.0, 15.0]));
+    }
+
+    #[test]
+    fn moments_follow_the_right_hand() {
+        let mut sum = Resultant::default();
+        sum.add([1.0, 2.0, 3.0], [4.0, 5.0, 6.0]);
+        // (2·6 − 3·5, 3·4 − 1·6, 1·5 − 2·4)
+        assert_eq!(sum.moment, [-3.0, 6.0, -3.0]);
+    }
+
+    #[test]
+    fn a_sum_that_is_not_a_number_is_an_infinite_defect() {
+        let found = Defect::of([[f64::NAN, 0.0, 0.0], [0.0; 3], [0.0; 3]], 1.0);
+        assert_eq!((found.value, found.scaled), (f64::INFINITY, f64::INFINITY));
+    }
+
+    #[test]
+    fn lengths_add_up_over_nodes() {
+        assert_eq!(total_length(&[3.0, 4.0, 0.0, -5.0], 2), 10.0);
+    }
+}
