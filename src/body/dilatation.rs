@@ -20,8 +20,9 @@
 
 use nalgebra::Vector3;
 
+use super::cell::MOST_NODES;
 use super::incidence::Incidence;
-use super::quadrature::{positions, rule};
+use super::quadrature::{Mapped, mapped};
 use super::{Body, CellKind, Material, Model};
 
 /// Poisson's ratio from which volume change is averaged.
@@ -49,6 +50,18 @@ impl Dilatation {
             Self::NodeMean
         }
     }
+}
+
+/// Volume of a cell and `ḡ_a = (1/V) ∫ ∇N_a dV` (B4).
+pub(crate) fn mean_gradients(points: &[Mapped]) -> (f64, [Vector3<f64>; MOST_NODES]) {
+    let volume: f64 = points.iter().map(|point| point.volume).sum();
+    let mut mean = [Vector3::zeros(); MOST_NODES];
+    for point in points {
+        for (sum, gradient) in mean.iter_mut().zip(&point.gradients) {
+            *sum += gradient * (point.volume / volume);
+        }
+    }
+    (volume, mean)
 }
 
 /// The cells of one material around one node, whose dilatation is averaged (B5).
@@ -107,10 +120,10 @@ impl Patches {
             let mut patch_volume = 0.0;
             for &member in around.of(centre) {
                 let cell = mesh.cell(cells[member]);
-                let mapped = rule(cell.kind)[0].map(cell.kind, &positions(mesh, cell.nodes));
-                let share = mapped.volume / cell.nodes.len() as f64;
+                let [point, ..] = mapped(mesh, cell);
+                let share = point.volume / cell.nodes.len() as f64;
                 patch_volume += share;
-                for (&node, gradient) in cell.nodes.iter().zip(&mapped.gradients) {
+                for (&node, gradient) in cell.nodes.iter().zip(&point.gradients) {
                     if place[node] == usize::MAX {
                         place[node] = self.nodes.len();
                         self.nodes.push(node);

@@ -7,13 +7,12 @@
 //! per pair of nodes, from `∫ λ div u div v + 2 μ ε(u) : ε(v) dV`. Nearly incompressible
 //! cells put a mean in place of `λ A_ab` ((B4), (B5)).
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Matrix3;
 
 use super::Body;
-use super::cell::MOST_NODES;
-use super::dilatation::{Dilatation, Patches};
+use super::dilatation::{Dilatation, Patches, mean_gradients};
 use super::material::Lame;
-use super::quadrature::{Mapped, positions, rule};
+use super::quadrature::{Mapped, mapped, rule};
 use super::sparsity::BlockMatrix;
 
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
@@ -54,12 +53,7 @@ fn add_cell(body: &Body, index: usize, matrix: &mut BlockMatrix) {
     let depth = body.model.depth();
 
     let count = cell.nodes.len();
-    let positions = positions(&body.mesh, cell.nodes);
-    let mut points = [Mapped::default(); MOST_NODES];
-    let points = &mut points[..rule(cell.kind).len()];
-    for (mapped, point) in points.iter_mut().zip(rule(cell.kind)) {
-        *mapped = point.map(cell.kind, &positions[..count]);
-    }
+    let points = &mapped(&body.mesh, cell)[..rule(cell.kind).len()];
     let (volume, mean) = mean_gradients(points);
 
     for a in 0..count {
@@ -79,18 +73,6 @@ fn add_cell(body: &Body, index: usize, matrix: &mut BlockMatrix) {
             );
         }
     }
-}
-
-/// Volume of a cell and `ḡ_a = (1/V) ∫ ∇N_a dV` (B4).
-pub(crate) fn mean_gradients(points: &[Mapped]) -> (f64, [Vector3<f64>; MOST_NODES]) {
-    let volume: f64 = points.iter().map(|point| point.volume).sum();
-    let mut mean = [Vector3::zeros(); MOST_NODES];
-    for point in points {
-        for (sum, gradient) in mean.iter_mut().zip(&point.gradients) {
-            *sum += gradient * (point.volume / volume);
-        }
-    }
-    (volume, mean)
 }
 
 /// `A_ab = ∫ ∇N_a ∇N_bᵀ dV` (B3).
