@@ -54,6 +54,15 @@ pub enum Error {
         /// Largest entry of the operator, in m/N.
         largest: f64,
     },
+
+    /// A file could not be written.
+    #[error("{path}: cannot be written: {reason}")]
+    Write {
+        /// The file.
+        path: String,
+        /// What the system says.
+        reason: String,
+    },
 }
 
 /// Refuses NaN and infinities, naming the first entry that holds one.
