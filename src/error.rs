@@ -190,6 +190,15 @@ pub enum Error {
         /// The motion in words.
         motion: String,
     },
+
+    /// A file could not be written.
+    #[error("{path}: cannot be written: {reason}")]
+    Write {
+        /// The file.
+        path: String,
+        /// What the system says.
+        reason: String,
+    },
 }
 
 /// Refuses NaN and infinities, naming the first entry that holds one.

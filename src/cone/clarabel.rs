@@ -90,7 +90,9 @@ impl ConeProgram {
         tolerance: f64,
     ) -> Option<ConeSolution> {
         let scaled: Vec<f64> = linear.iter().zip(&self.scale).map(|(q, d)| q * d).collect();
-        let largest = scaled.iter().fold(0.0_f64, |largest, q| largest.max(q.abs()));
+        let largest = scaled
+            .iter()
+            .fold(0.0_f64, |largest, q| largest.max(q.abs()));
         let sigma = if largest > 0.0 { largest } else { 1.0 };
         let q: Vec<f64> = scaled.iter().map(|q| q / sigma).collect();
         self.solver.update_settings(settings(tolerance)?).ok()?;

@@ -1,0 +1,174 @@
+//! The judge's residuals and the balance of the body, under their stable names.
+
+use serde::Serialize;
+
+use crate::kkt;
+
+/// Every law on the original problem, measured; see [`kkt::Certificate`].
+///
+/// A residual that is infinite (the state is not finite) is written as `null`.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Certificate {
+    /// Natural-map residual, relative to the reaction: the stopping test.
+    pub natural_map: f64,
+    /// Largest penetration, in metre.
+    pub penetration: Worst,
+    /// Largest normal reaction that pulls, in newton.
+    pub tension: Worst,
+    /// Largest work of a normal reaction across its gap, in joule.
+    pub complementarity: Worst,
+    /// Largest excess of a friction force over its bound, in newton.
+    pub disc_excess: Worst,
+    /// Largest defect of the friction law's dissipation, in joule.
+    pub dissipation_defect: Worst,
+    /// Bipotential gap, in joule.
+    pub bipotential_gap: f64,
+    /// Energy of the reaction, in joule: what the bipotential gap is compared with.
+    pub reaction_energy: f64,
+    /// Equilibrium of the whole body.
+    pub balance: Balance,
+}
+
+/// A residual with the contact where it is worst.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Worst {
+    /// Size of the violation in physical units.
+    pub value: f64,
+    /// The same, relative to the load.
+    pub scaled: f64,
+    /// Contact, as an index into `contacts`.
+    pub contact: usize,
+}
+
+/// A residual with the mesh node where it is worst.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct WorstNode {
+    /// Size of the violation in physical units.
+    pub value: f64,
+    /// The same, relative to the load.
+    pub scaled: f64,
+    /// Node of the mesh, from 0.
+    pub node: usize,
+}
+
+/// Equilibrium of the whole body, measured; see [`kkt::Balance`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Balance {
+    /// Largest nodal force that nothing carries, in newton.
+    pub equilibrium: WorstNode,
+    /// Largest departure from a given displacement, in metre.
+    pub support: WorstNode,
+    /// Largest difference between the body's and the condensed displacement, in metre.
+    pub surface: Worst,
+    /// Given forces.
+    pub loads: Resultant,
+    /// Contact forces on the body.
+    pub contact: Resultant,
+    /// Support reactions on the body.
+    pub supports: Resultant,
+    /// Length of the sum of all forces, in newton.
+    pub force_defect: Defect,
+    /// Length of the sum of all moments, in newton metre.
+    pub moment_defect: Defect,
+}
+
+/// Sum of forces and of their moments.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Resultant {
+    /// Force in global axes, in newton.
+    pub force: Vec<f64>,
+    /// Moment about the origin, in newton metre; in 2D its single component.
+    pub moment: Vec<f64>,
+}
+
+/// What is left of a sum that should vanish.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Defect {
+    /// Size in physical units.
+    pub value: f64,
+    /// The same, relative to what was added.
+    pub scaled: f64,
+}
+
+impl Certificate {
+    pub(super) fn new(
+        measured: &kkt::Certificate,
+        balance: &kkt::Balance,
+        dimension: usize,
+    ) -> Self {
+        Self {
+            natural_map: measured.natural_map,
+            penetration: measured.penetration.into(),
+            tension: measured.tension.into(),
+            complementarity: measured.complementarity.into(),
+            disc_excess: measured.disc_excess.into(),
+            dissipation_defect: measured.dissipation_defect.into(),
+            bipotential_gap: measured.bipotential_gap,
+            reaction_energy: measured.reaction_energy,
+            balance: Balance {
+                equilibrium: balance.equilibrium.into(),
+                support: balance.support.into(),
+                surface: balance.surface.into(),
+                loads: Resultant::new(&balance.loads, dimension),
+                contact: Resultant::new(&balance.contact, dimension),
+                supports: Resultant::new(&balance.supports, dimension),
+                force_defect: balance.force_defect.into(),
+                moment_defect: balance.moment_defect.into(),
+            },
+        }
+    }
+}
+
+impl Resultant {
+    pub(super) fn new(sum: &kkt::Resultant, dimension: usize) -> Self {
+        Self {
+            force: in_dimension(sum.force, dimension),
+            moment: match dimension {
+                2 => vec![sum.moment[2]],
+                _ => sum.moment.to_vec(),
+            },
+        }
+    }
+}
+
+impl From<kkt::Worst> for Worst {
+    fn from(worst: kkt::Worst) -> Self {
+        let kkt::Worst {
+            value,
+            scaled,
+            contact,
+        } = worst;
+        Self {
+            value,
+            scaled,
+            contact,
+        }
+    }
+}
+
+impl From<kkt::WorstNode> for WorstNode {
+    fn from(worst: kkt::WorstNode) -> Self {
+        let kkt::WorstNode {
+            value,
+            scaled,
+            node,
+        } = worst;
+        Self {
+            value,
+            scaled,
+            node,
+        }
+    }
+}
+
+impl From<kkt::Defect> for Defect {
+    fn from(defect: kkt::Defect) -> Self {
+        let kkt::Defect { value, scaled } = defect;
+        Self { value, scaled }
+    }
+}
+
+/// A vector in global axes with as many components as the body has dimensions.
+pub(super) fn in_dimension(vector: [f64; 3], dimension: usize) -> Vec<f64> {
+    vector.into_iter().take(dimension).collect()
+}

@@ -1,0 +1,137 @@
+//! Contact by contact: where it is, what it does, what it carries.
+
+use serde::Serialize;
+
+use super::ReportParts;
+use super::certificate::in_dimension;
+use crate::condensation::ContactNode;
+use crate::kkt::{ContactStatus, global_force};
+
+/// What a contact does, as reports spell it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ContactState {
+    /// No reaction.
+    Open,
+    /// Pressed and held by friction.
+    Stick,
+    /// Pressed and sliding; without friction every pressed contact.
+    Slip,
+}
+
+/// One contact; vectors in global axes with the body's dimension.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Contact {
+    /// Node of the mesh, from 0.
+    pub node: usize,
+    /// Contact pair of the scene, from 0.
+    pub pair: usize,
+    /// Position before loading, in metre.
+    pub position: Vec<f64>,
+    /// Unit normal, out of the body towards the obstacle.
+    pub normal: Vec<f64>,
+    /// What it does.
+    pub state: ContactState,
+    /// Distance left to the obstacle, in metre.
+    pub gap: f64,
+    /// Tangential displacement since the start of the load step, in metre.
+    pub slip: Vec<f64>,
+    /// Tributary area, in m².
+    pub area: f64,
+    /// Contact force on the body, in newton.
+    pub force: Vec<f64>,
+    /// Pressure `−t_N / area ≥ 0`, in pascal; `null` without an area.
+    pub pressure: Option<f64>,
+    /// Friction force on the body per area, in pascal; `null` without an area.
+    pub friction_traction: Option<Vec<f64>>,
+}
+
+/// Reactions of one contact, before they are cut to the body's dimension.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ContactForce {
+    /// `−t_N`, in newton.
+    pub(super) pressing: f64,
+    /// Friction on the body in global axes, in newton.
+    pub(super) friction: [f64; 3],
+    /// Whole contact force on the body in global axes, in newton.
+    pub(super) total: [f64; 3],
+}
+
+/// The contacts of a report, in the order of the contact problem.
+pub(super) fn contacts(parts: &ReportParts<'_>) -> Vec<Contact> {
+    let dimension = parts.body.mesh.dimension;
+    let forces = contact_forces(parts);
+    let nodes = parts.surface.nodes.iter().zip(&forces).enumerate();
+    nodes
+        .map(|(i, (contact, force))| Contact {
+            node: contact.node,
+            pair: contact.pair,
+            position: in_dimension(contact.position, dimension),
+            normal: in_dimension(contact.frame[0], dimension),
+            state: parts.outcome.verdict.status[i].into(),
+            gap: gap(parts, i),
+            slip: in_dimension(slip(parts, contact), dimension),
+            area: contact.area,
+            force: in_dimension(force.total, dimension),
+            pressure: per_area(force.pressing, contact.area),
+            friction_traction: in_dimension(force.friction, dimension)
+                .into_iter()
+                .map(|f| per_area(f, contact.area))
+                .collect(),
+        })
+        .collect()
+}
+
+/// Reactions of all contacts, split into normal and friction.
+pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
+    let blocks = parts.problem.offsets().windows(2);
+    let nodes = parts.surface.nodes.iter().zip(blocks);
+    nodes
+        .map(|(contact, ends)| {
+            let block = &parts.outcome.reaction[ends[0]..ends[1]];
+            let total = global_force(contact, block);
+            let normal = global_force(contact, &block[..1]);
+            ContactForce {
+                // 0 − t, so that an open contact reads 0 and not −0.
+                pressing: 0.0 - block[0],
+                friction: [0, 1, 2].map(|axis| total[axis] - normal[axis]),
+                total,
+            }
+        })
+        .collect()
+}
+
+/// `g₀ − u_N`, in metre.
+fn gap(parts: &ReportParts<'_>, contact: usize) -> f64 {
+    let normal = parts.problem.offsets()[contact];
+    parts.problem.initial_gap()[contact] - parts.outcome.verdict.displacement[normal]
+}
+
+/// `u − (u·n) n` of the body at the contact's node, in metre. Not read from the contact
+/// problem, which holds no tangent where there is no friction: the body slides all the same.
+fn slip(parts: &ReportParts<'_>, contact: &ContactNode) -> [f64; 3] {
+    let dimension = parts.body.mesh.dimension;
+    let mut slip = [0.0; 3];
+    slip[..dimension].copy_from_slice(&parts.displacement[contact.node * dimension..][..dimension]);
+    let normal = contact.frame[0];
+    let along: f64 = slip.iter().zip(normal).map(|(u, n)| u * n).sum();
+    for axis in 0..3 {
+        slip[axis] -= along * normal[axis];
+    }
+    slip
+}
+
+/// A traction; none for a contact without area, whose force has no finite one.
+fn per_area(force: f64, area: f64) -> Option<f64> {
+    (area > 0.0).then(|| force / area)
+}
+
+impl From<ContactStatus> for ContactState {
+    fn from(status: ContactStatus) -> Self {
+        match status {
+            ContactStatus::Open => Self::Open,
+            ContactStatus::Stick => Self::Stick,
+            ContactStatus::Slip => Self::Slip,
+        }
+    }
+}

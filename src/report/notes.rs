@@ -1,0 +1,58 @@
+//! What a reader of the numbers should know about the contact surface.
+
+use super::ReportParts;
+use crate::kkt::ContactStatus;
+
+/// How many nodes a note names before it only counts them.
+const NAMED: usize = 5;
+
+/// Notes on the contact surface, after those that the scene's own stages made.
+pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
+    let mut notes = parts.notes.to_vec();
+    if !parts.surface.left_out.is_empty() {
+        notes.push(format!(
+            "{}: a support holds the normal displacement, so they are no contacts",
+            named(&parts.surface.left_out)
+        ));
+    }
+    let contacts = parts
+        .surface
+        .nodes
+        .iter()
+        .zip(&parts.outcome.verdict.status);
+    let at_rim: Vec<usize> = contacts
+        .filter(|(contact, status)| contact.rim && **status != ContactStatus::Open)
+        .map(|(contact, _)| contact.node)
+        .collect();
+    if !at_rim.is_empty() {
+        notes.push(format!(
+            "{}: contact reaches the rim of the assumed contact surface; the true contact \
+             may go on beyond it, enlarge the surface",
+            named(&at_rim)
+        ));
+    }
+    notes
+}
+
+/// `node 4`, `nodes 4, 7` or `12 nodes (1, 2, 3, 4, 5, ...)`, counted from 0.
+fn named(nodes: &[usize]) -> String {
+    let shown: Vec<String> = nodes.iter().take(NAMED).map(usize::to_string).collect();
+    let shown = shown.join(", ");
+    match nodes.len() {
+        1 => format!("node {shown}"),
+        count if count <= NAMED => format!("nodes {shown}"),
+        count => format!("{count} nodes ({shown}, ...)"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_few_nodes_are_named_and_many_are_counted() {
+        assert_eq!(named(&[4]), "node 4");
+        assert_eq!(named(&[4, 7]), "nodes 4, 7");
+        assert_eq!(named(&[0, 1, 2, 3, 4, 5]), "6 nodes (0, 1, 2, 3, 4, ...)");
+    }
+}

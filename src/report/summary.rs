@@ -1,0 +1,180 @@
+//! The report on one screen.
+
+use std::fmt::Write;
+
+use super::{Report, Status};
+
+/// About twenty aligned lines: status, contacts, totals, worst violations, work, notes.
+pub(super) fn summary(report: &Report) -> String {
+    let mut text = String::new();
+    // Writing into a string cannot fail.
+    let _ = heading(&mut text, report)
+        .and_then(|()| totals(&mut text, report))
+        .and_then(|()| violations(&mut text, report))
+        .and_then(|()| work(&mut text, report));
+    for note in &report.notes {
+        let _ = writeln!(text, "note            {note}");
+    }
+    text
+}
+
+fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
+    let status = match report.status {
+        Status::Certified => "certified",
+        Status::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
+        Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the body",
+    };
+    let (size, residual) = (&report.size, report.certificate.natural_map);
+    writeln!(text, "{}", report.title)?;
+    writeln!(text, "status          {status}")?;
+    writeln!(
+        text,
+        "residual        {residual:.1e} (natural map, relative to the reaction)"
+    )?;
+    let units = report
+        .units
+        .as_deref()
+        .unwrap_or("not named; those of the scene");
+    writeln!(text, "units           {units}")?;
+    writeln!(
+        text,
+        "size            {}D, {} nodes, {} cells",
+        size.dimension, size.nodes, size.cells
+    )
+}
+
+fn totals(text: &mut String, report: &Report) -> std::fmt::Result {
+    let totals = &report.totals;
+    let (open, stick, slip) = (totals.open, totals.stick, totals.slip);
+    let contacts = report.size.contacts;
+    writeln!(
+        text,
+        "contacts        {contacts}: {open} open, {stick} stick, {slip} slip"
+    )?;
+    writeln!(text, "normal force    {}", number(totals.normal))?;
+    writeln!(text, "friction        {}", vector(&totals.friction))?;
+    writeln!(text, "contact force   {}", vector(&totals.contact_force))?;
+    writeln!(
+        text,
+        "moment          {} about the origin",
+        vector(&totals.moment)
+    )?;
+    let (area, slipping) = (number(totals.contact_area), number(totals.slip_area));
+    writeln!(text, "contact area    {area}, slipping {slipping}")?;
+    writeln!(text, "peak pressure   {}", number(totals.peak_pressure))
+}
+
+fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
+    let (laws, balance) = (&report.certificate, &report.certificate.balance);
+    writeln!(text, "worst violation     size   scaled")?;
+    for (name, worst) in [
+        ("penetration", laws.penetration),
+        ("tension", laws.tension),
+        ("complement.", laws.complementarity),
+        ("disc excess", laws.disc_excess),
+        ("dissipation", laws.dissipation_defect),
+    ] {
+        let place = format!("contact {}", worst.contact);
+        violation(text, name, worst.value, worst.scaled, &place)?;
+    }
+    let nodal = balance.equilibrium;
+    violation(
+        text,
+        "equilibrium",
+        nodal.value,
+        nodal.scaled,
+        &format!("node {}", nodal.node),
+    )?;
+    let (force, moment) = (balance.force_defect, balance.moment_defect);
+    violation(text, "sum of forces", force.value, force.scaled, "")?;
+    violation(text, "of moments", moment.value, moment.scaled, "")
+}
+
+/// One line of the table; the place only says something where there is a violation.
+fn violation(
+    text: &mut String,
+    name: &str,
+    value: f64,
+    scaled: f64,
+    place: &str,
+) -> std::fmt::Result {
+    let place = if value == 0.0 { "" } else { place };
+    let line = format!("  {name:<13} {value:>8.1e} {scaled:>8.1e}  {place}");
+    writeln!(text, "{}", line.trim_end())
+}
+
+fn work(text: &mut String, report: &Report) -> std::fmt::Result {
+    let work = &report.work;
+    writeln!(
+        text,
+        "work            {}, {}, {}, {}",
+        counted(work.factorisations, "factorisation"),
+        counted(work.sweeps, "sweep"),
+        counted(work.cone_iterations, "cone iteration"),
+        counted(work.newton_steps, "Newton step"),
+    )?;
+    let stages = work.seconds.by_stage();
+    let spent: Vec<String> = stages
+        .iter()
+        .map(|(name, spent)| format!("{name} {spent:.3}"))
+        .collect();
+    let (total, [before, after]) = (work.seconds.total, [&spent[..4], &spent[4..]]);
+    writeln!(text, "seconds         {total:.3}: {},", before.join(", "))?;
+    writeln!(text, "                {}", after.join(", "))
+}
+
+fn counted(count: usize, what: &str) -> String {
+    format!("{count} {what}{}", if count == 1 { "" } else { "s" })
+}
+
+fn vector(components: &[f64]) -> String {
+    let components: Vec<String> = components.iter().map(|&c| number(c)).collect();
+    match components.as_slice() {
+        [single] => single.clone(),
+        several => format!("({})", several.join(", ")),
+    }
+}
+
+/// Six digits, in powers of ten only where plain digits would be long.
+fn number(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 {
+        "0".into()
+    } else if (1e-3..1e5).contains(&size) {
+        let decimals = (5 - size.log10().floor() as i32).max(0) as usize;
+        format!("{value:.decimals$}")
+    } else {
+        format!("{value:.5e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_six_digits_in_every_unit() {
+        let found = [0.0, 0.04, 12.5, -99999.4, 1.40536e6, 3.2e-9].map(number);
+        let expected = [
+            "0",
+            "0.0400000",
+            "12.5000",
+            "-99999",
+            "1.40536e6",
+            "3.20000e-9",
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn one_sweep_is_no_sweeps() {
+        assert_eq!(
+            (counted(1, "sweep"), counted(2, "sweep")),
+            ("1 sweep".into(), "2 sweeps".into())
+        );
+        assert_eq!(
+            (vector(&[2.0]), vector(&[2.0, 0.0])),
+            ("2.00000".into(), "(2.00000, 0)".into())
+        );
+    }
+}

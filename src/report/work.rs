@@ -1,0 +1,164 @@
+//! What the solve took: counts, seconds by stage, sweep by sweep.
+
+use serde::Serialize;
+
+use super::ReportParts;
+use crate::dpana::SweepRecord;
+
+/// What the stages around the outer loop took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StageWork {
+    /// Factorisations of the body's stiffness.
+    pub factorisations: usize,
+    /// Seconds of stiffness and loads.
+    pub assembly: f64,
+    /// Seconds of the fill-reducing ordering.
+    pub ordering: f64,
+    /// Seconds of the factorisation, symbolic and numeric.
+    pub factorisation: f64,
+    /// Seconds of the condensed operator and the free displacement.
+    pub condensation: f64,
+    /// Seconds of the recovery of the whole displacement and its balance.
+    pub recovery: f64,
+}
+
+/// Counts over the whole solve.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Work {
+    /// Factorisations of the body's stiffness.
+    pub factorisations: usize,
+    /// Gauss–Seidel passes of the prediction.
+    pub passes: usize,
+    /// Sweeps of the outer loop.
+    pub sweeps: usize,
+    /// Normal half-steps solved as cone programs.
+    pub normal_programs: usize,
+    /// Friction half-steps solved as cone programs.
+    pub friction_programs: usize,
+    /// Largest number of contacts that a friction program held.
+    pub friction_program_contacts: usize,
+    /// Interior-point iterations over all programs.
+    pub cone_iterations: usize,
+    /// Newton steps.
+    pub newton_steps: usize,
+    /// Wall time by stage.
+    pub seconds: Seconds,
+}
+
+/// Wall time by stage in the order of the pipeline, in second.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Seconds {
+    /// Stiffness and loads.
+    pub assembly: f64,
+    /// Fill-reducing ordering.
+    pub ordering: f64,
+    /// Factorisation, symbolic and numeric.
+    pub factorisation: f64,
+    /// Condensed operator and free displacement.
+    pub condensation: f64,
+    /// Prediction.
+    pub predict: f64,
+    /// Normal half-steps.
+    pub normal: f64,
+    /// Friction half-steps.
+    pub friction: f64,
+    /// Newton finish.
+    pub finish: f64,
+    /// Judge.
+    pub judge: f64,
+    /// Recovery of the whole displacement and its balance.
+    pub recovery: f64,
+    /// Sum of the stages.
+    pub total: f64,
+}
+
+/// One sweep.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Sweep {
+    /// Natural-map residual at its end.
+    pub residual: f64,
+    /// Interior-point iterations of the normal half-step.
+    pub normal_iterations: usize,
+    /// Interior-point iterations of the friction half-step.
+    pub friction_iterations: usize,
+    /// Newton steps tried after the half-steps.
+    pub newton_steps: usize,
+    /// Open contacts at its end.
+    pub open: usize,
+    /// Sticking contacts at its end.
+    pub stick: usize,
+    /// Slipping contacts at its end.
+    pub slip: usize,
+    /// Wall time, in second.
+    pub seconds: f64,
+}
+
+impl Work {
+    pub(super) fn new(parts: &ReportParts<'_>) -> Self {
+        let (stages, work) = (parts.stages, &parts.outcome.work);
+        Self {
+            factorisations: stages.factorisations,
+            passes: work.passes,
+            sweeps: work.sweeps,
+            normal_programs: work.normal_programs,
+            friction_programs: work.friction_programs,
+            friction_program_contacts: work.friction_program_contacts,
+            cone_iterations: work.cone_iterations,
+            newton_steps: work.newton_steps,
+            seconds: Seconds::new(parts),
+        }
+    }
+}
+
+impl Seconds {
+    fn new(parts: &ReportParts<'_>) -> Self {
+        let (stages, outer) = (parts.stages, parts.outcome.work.seconds);
+        let mut seconds = Self {
+            assembly: stages.assembly,
+            ordering: stages.ordering,
+            factorisation: stages.factorisation,
+            condensation: stages.condensation,
+            predict: outer.predict,
+            normal: outer.normal,
+            friction: outer.friction,
+            finish: outer.finish,
+            judge: outer.judge,
+            recovery: stages.recovery,
+            total: 0.0,
+        };
+        seconds.total = seconds.by_stage().iter().map(|(_, spent)| spent).sum();
+        seconds
+    }
+
+    /// The stages by name, in the order of the pipeline.
+    pub(super) fn by_stage(&self) -> [(&'static str, f64); 10] {
+        [
+            ("assembly", self.assembly),
+            ("ordering", self.ordering),
+            ("factorisation", self.factorisation),
+            ("condensation", self.condensation),
+            ("predict", self.predict),
+            ("normal", self.normal),
+            ("friction", self.friction),
+            ("finish", self.finish),
+            ("judge", self.judge),
+            ("recovery", self.recovery),
+        ]
+    }
+}
+
+impl From<&SweepRecord> for Sweep {
+    fn from(record: &SweepRecord) -> Self {
+        let [open, stick, slip] = record.open_stick_slip;
+        Self {
+            residual: record.residual,
+            normal_iterations: record.normal_iterations,
+            friction_iterations: record.friction_iterations,
+            newton_steps: record.newton_steps,
+            open,
+            stick,
+            slip,
+            seconds: record.seconds,
+        }
+    }
+}

@@ -1,0 +1,470 @@
+//! What the reports say about a state that can be checked in the head, and that an
+//! independent reader finds the same numbers in the VTU files.
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+use std::path::PathBuf;
+
+use dpana::body::{Body, CellKind, Facet, Mesh, Model};
+use dpana::condensation::{ContactNode, ContactProblem, ContactSurface, Operator};
+use dpana::dpana::{Outcome, Seconds, Status, SweepRecord, Work};
+use dpana::kkt::{Balance, Judge};
+use dpana::report::vtu::{BodyFields, body_vtu, contact_path, contact_vtu};
+use dpana::report::{Report, ReportParts, StageWork, replace_file};
+use faer::Mat;
+use serde_json::{Value, json};
+use vtkio::Vtk;
+use vtkio::model::{Attribute, CellType, DataSet, Piece, UnstructuredGridPiece, VertexNumbers};
+
+/// Three squares in a row on a plane. Node 0 slips along +x under 4 N with a friction of
+/// −2 N, node 1 sticks under 6 N with a friction of +1 N, node 2 is 0.25 m open, and a
+/// support holds node 3.
+struct Row {
+    body: Body,
+    surface: ContactSurface,
+    problem: ContactProblem,
+    outcome: Outcome,
+    displacement: Vec<f64>,
+    balance: Balance,
+}
+
+impl Row {
+    fn new() -> Self {
+        let positions = (0..8)
+            .map(|k| [f64::from(k % 4), f64::from(k / 4), 0.0])
+            .collect();
+        let mut mesh = Mesh::new(2, positions);
+        for k in 0..3 {
+            mesh.push_cell(CellKind::Quad4, &[k, k + 1, k + 5, k + 4]);
+        }
+        let contact = |node: usize, initial_gap: f64, area: f64| ContactNode {
+            node,
+            pair: 0,
+            position: [node as f64, 0.0, 0.0],
+            frame: [[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]],
+            tangents: 1,
+            initial_gap,
+            area,
+            rim: node == 0,
+        };
+        let surface = ContactSurface {
+            nodes: vec![
+                contact(0, 0.0, 0.5),
+                contact(1, 0.0, 1.0),
+                contact(2, 0.1, 1.0),
+            ],
+            facets: (0..3)
+                .map(|k| Facet {
+                    nodes: vec![k, k + 1],
+                })
+                .collect(),
+            left_out: vec![3],
+        };
+        // G = I, so û = u − t with u = (0, 0.1), (0, 0), (−0.15, 0.3).
+        let free = vec![4.0, 2.1, 6.0, -1.0, -0.15, 0.3];
+        let operator = Operator::from_compliance(Mat::identity(6, 6)).unwrap();
+        let gaps = vec![0.0, 0.0, 0.1];
+        let problem = ContactProblem::new(&[1; 3], vec![0.5; 3], gaps, free, operator).unwrap();
+        let reaction = vec![-4.0, -2.0, -6.0, 1.0, 0.0, 0.0];
+        let verdict = Judge::new(&problem).measure(&reaction);
+        let sweep = SweepRecord {
+            residual: 1e-4,
+            open_stick_slip: [1, 1, 1],
+            ..Default::default()
+        };
+        let work = Work {
+            sweeps: 1,
+            cone_iterations: 12,
+            newton_steps: 2,
+            seconds: Seconds {
+                predict: 0.25,
+                ..Default::default()
+            },
+            ..Default::default()
+        };
+        let mut displacement = vec![0.0; 16];
+        displacement[..6].copy_from_slice(&[0.1, 0.0, 0.0, 0.0, 0.3, 0.15]);
+        Self {
+            body: Body {
+                name: "row".into(),
+                mesh,
+                model: Model::PlaneStrain,
+                materials: vec![],
+                material_of_cell: vec![],
+                supports: vec![],
+                loads: vec![],
+            },
+            surface,
+            problem,
+            outcome: Outcome {
+                status: Status::Certified,
+                reaction,
+                verdict,
+                history: vec![sweep],
+                work,
+            },
+            displacement,
+            balance: Balance::default(),
+        }
+    }
+
+    fn report(&self) -> Report {
+        Report::new(&ReportParts {
+            title: "Row of squares",
+            units: Some("m, N, Pa"),
+            body: &self.body,
+            surface: &self.surface,
+            problem: &self.problem,
+            outcome: &self.outcome,
+            displacement: &self.displacement,
+            balance: &self.balance,
+            stages: &StageWork {
+                factorisations: 1,
+                assembly: 0.5,
+                ..Default::default()
+            },
+            notes: &["the body is alone".to_owned()],
+        })
+        .unwrap()
+    }
+
+    fn json(&self) -> Value {
+        serde_json::from_str(&self.report().to_json()).unwrap()
+    }
+}
+
+fn keys(value: &Value) -> Vec<&str> {
+    value
+        .as_object()
+        .unwrap()
+        .keys()
+        .map(String::as_str)
+        .collect()
+}
+
+#[test]
+fn totals_add_up_the_contacts() {
+    let totals = &Row::new().json()["totals"];
+    // Normal 4 + 6 N; friction −2 + 1 N along x; moment 1 m · 6 N; pressure 4 N / 0.5 m².
+    let expected = json!({
+        "open": 1, "stick": 1, "slip": 1,
+        "normal": 10.0, "friction": [-1.0, 0.0], "contact_force": [-1.0, 10.0], "moment": [6.0],
+        "contact_area": 1.5, "slip_area": 0.5, "peak_pressure": 8.0,
+    });
+    assert_eq!(totals, &expected);
+}
+
+#[test]
+fn contacts_are_told_in_global_axes_and_with_the_dimension_of_the_body() {
+    let contacts = &Row::new().json()["contacts"];
+    let slipping = json!({
+        "node": 0, "pair": 0, "position": [0.0, 0.0], "normal": [0.0, -1.0], "state": "slip",
+        "gap": 0.0, "slip": [0.1, 0.0], "area": 0.5, "force": [-2.0, 4.0],
+        "pressure": 8.0, "friction_traction": [-4.0, 0.0],
+    });
+    assert_eq!(contacts[0], slipping);
+    assert_eq!(
+        (&contacts[1]["state"], &contacts[2]["state"]),
+        (&json!("stick"), &json!("open"))
+    );
+    assert_eq!(
+        (&contacts[2]["gap"], &contacts[2]["slip"]),
+        (&json!(0.25), &json!([0.3, 0.0]))
+    );
+}
+
+#[test]
+fn names_of_the_report_are_stable() {
+    let json = Row::new().json();
+    let names = [
+        "certificate",
+        "contacts",
+        "history",
+        "notes",
+        "size",
+        "status",
+        "title",
+        "totals",
+        "units",
+        "work",
+    ];
+    assert_eq!(keys(&json), names);
+    let laws = [
+        "balance",
+        "bipotential_gap",
+        "complementarity",
+        "disc_excess",
+        "dissipation_defect",
+        "natural_map",
+        "penetration",
+        "reaction_energy",
+        "tension",
+    ];
+    assert_eq!(keys(&json["certificate"]), laws);
+    assert_eq!(
+        keys(&json["certificate"]["tension"]),
+        ["contact", "scaled", "value"]
+    );
+    let balance = [
+        "contact",
+        "equilibrium",
+        "force_defect",
+        "loads",
+        "moment_defect",
+        "support",
+        "supports",
+        "surface",
+    ];
+    assert_eq!(keys(&json["certificate"]["balance"]), balance);
+    let work = [
+        "cone_iterations",
+        "factorisations",
+        "friction_program_contacts",
+        "friction_programs",
+        "newton_steps",
+        "normal_programs",
+        "passes",
+        "seconds",
+        "sweeps",
+    ];
+    assert_eq!(keys(&json["work"]), work);
+    let stages = [
+        "assembly",
+        "condensation",
+        "factorisation",
+        "finish",
+        "friction",
+        "judge",
+        "normal",
+        "ordering",
+        "predict",
+        "recovery",
+        "total",
+    ];
+    assert_eq!(keys(&json["work"]["seconds"]), stages);
+    assert_eq!(json["work"]["seconds"]["total"], 0.75);
+    let sweep = [
+        "friction_iterations",
+        "newton_steps",
+        "normal_iterations",
+        "open",
+        "residual",
+        "seconds",
+        "slip",
+        "stick",
+    ];
+    assert_eq!(keys(&json["history"][0]), sweep);
+}
+
+#[test]
+fn every_status_has_its_name() {
+    let mut row = Row::new();
+    for (status, name) in [
+        (Status::Certified, "certified"),
+        (Status::NotConverged, "not_converged"),
+        (Status::NoEquilibrium, "no_equilibrium"),
+    ] {
+        row.outcome.status = status;
+        assert_eq!(row.json()["status"], name);
+    }
+}
+
+#[test]
+fn a_contact_without_area_has_a_force_and_no_pressure() {
+    let mut row = Row::new();
+    row.surface.nodes[0].area = 0.0;
+    let json = row.json();
+    let contact = &json["contacts"][0];
+    assert_eq!(contact["force"], json!([-2.0, 4.0]));
+    assert!(contact["pressure"].is_null() && contact["friction_traction"].is_null());
+    assert_eq!(json["totals"]["peak_pressure"], 6.0);
+}
+
+#[test]
+fn a_pressed_contact_at_the_rim_and_a_node_left_out_are_noted() {
+    let notes = Row::new().report().notes;
+    assert_eq!(notes[0], "the body is alone");
+    assert!(notes[1].starts_with("node 3: a support holds the normal displacement"));
+    assert!(notes[2].starts_with("node 0: contact reaches the rim"));
+    let mut open = Row::new();
+    open.surface.nodes[0].rim = false;
+    open.surface.nodes[2].rim = true;
+    assert_eq!(open.report().notes.len(), 2);
+}
+
+#[test]
+fn the_summary_fits_on_a_screen_and_shouts_when_nothing_is_certified() {
+    let mut row = Row::new();
+    let text = row.report().summary();
+    assert!(text.lines().count() <= 28, "{text}");
+    for line in [
+        "status          certified",
+        "units           m, N, Pa",
+        "contacts        3: 1 open, 1 stick, 1 slip",
+        "normal force    10.0000",
+        "friction        (-1.00000, 0)",
+        "work            1 factorisation, 1 sweep, 12 cone iterations, 2 Newton steps",
+    ] {
+        assert!(text.lines().any(|found| found == line), "{line}\n{text}");
+    }
+    row.outcome.status = Status::NotConverged;
+    assert!(row.report().summary().contains("NOT CONVERGED"));
+}
+
+#[test]
+fn parts_of_different_problems_are_refused() {
+    let mut row = Row::new();
+    row.displacement.pop();
+    let parts = ReportParts {
+        title: "",
+        units: None,
+        body: &row.body,
+        surface: &row.surface,
+        problem: &row.problem,
+        outcome: &row.outcome,
+        displacement: &row.displacement,
+        balance: &row.balance,
+        stages: &StageWork::default(),
+        notes: &[],
+    };
+    let refused = Report::new(&parts).unwrap_err().to_string();
+    assert_eq!(refused, "displacement: expected 16 entries, found 15");
+}
+
+/// Writes a document, reads it back with an independent reader.
+fn read_back(name: &str, text: &str) -> UnstructuredGridPiece {
+    let path = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join(name);
+    replace_file(&path, text).unwrap();
+    let DataSet::UnstructuredGrid { mut pieces, .. } = Vtk::import(&path).unwrap().data else {
+        panic!("not an unstructured grid");
+    };
+    let Piece::Inline(piece) = pieces.remove(0) else {
+        panic!("no inline piece");
+    };
+    *piece
+}
+
+fn array(arrays: &[Attribute], wanted: &str) -> Vec<f64> {
+    let found = arrays.iter().find_map(|attribute| match attribute {
+        Attribute::DataArray(array) if array.name == wanted => Some(&array.data),
+        _ => None,
+    });
+    found.unwrap().cast_into().unwrap()
+}
+
+fn connectivity(piece: &UnstructuredGridPiece) -> (Vec<u64>, Vec<u64>) {
+    match &piece.cells.cell_verts {
+        VertexNumbers::XML {
+            connectivity,
+            offsets,
+        } => (connectivity.clone(), offsets.clone()),
+        VertexNumbers::Legacy { .. } => panic!("legacy cells in an XML file"),
+    }
+}
+
+#[test]
+fn the_body_is_read_back_with_its_cells_and_fields() {
+    let row = Row::new();
+    let stress: Vec<[f64; 6]> = (0..8)
+        .map(|k| [f64::from(k), 2.0, 3.0, 4.0, 5.0, 6.0])
+        .collect();
+    let text = body_vtu(&BodyFields {
+        mesh: &row.body.mesh,
+        displacement: &row.displacement,
+        nodal_stress: &stress,
+        nodal_von_mises: &[7.0; 8],
+        cell_stress: &[],
+        cell_von_mises: &[0.1, 1e-300, -2e300],
+    })
+    .unwrap();
+    let piece = read_back("row.vtu", &text);
+    assert_eq!(piece.cells.types, [CellType::Quad; 3]);
+    let (nodes, ends) = connectivity(&piece);
+    assert_eq!((&nodes[4..8], ends), (&[1, 2, 6, 5][..], vec![4, 8, 12]));
+    let points: Vec<f64> = piece.points.cast_into().unwrap();
+    assert_eq!((points.len(), &points[15..18]), (24, &[1.0, 1.0, 0.0][..]));
+    let moved = array(&piece.data.point, "displacement");
+    assert_eq!((moved.len(), &moved[6..9]), (24, &[0.3, 0.15, 0.0][..]));
+    // Voigt's yz, xz, xy = 4, 5, 6 become VTK's xy, yz, xz.
+    assert_eq!(
+        array(&piece.data.point, "stress")[6..12],
+        [1.0, 2.0, 3.0, 6.0, 4.0, 5.0]
+    );
+    assert_eq!(array(&piece.data.cell, "von_mises"), [0.1, 1e-300, -2e300]);
+    assert_eq!(piece.data.cell.len(), 1);
+}
+
+#[test]
+fn cells_of_3d_are_read_back_by_their_kind() {
+    let corner = |k: usize| [(k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64];
+    let mut mesh = Mesh::new(3, (0..8).map(corner).collect());
+    mesh.push_cell(CellKind::Hex8, &[0, 1, 3, 2, 4, 5, 7, 6]);
+    mesh.push_cell(CellKind::Tet4, &[0, 1, 2, 4]);
+    let displacement: Vec<f64> = (0..24).map(f64::from).collect();
+    let fields = BodyFields {
+        mesh: &mesh,
+        displacement: &displacement,
+        nodal_stress: &[],
+        nodal_von_mises: &[],
+        cell_stress: &[],
+        cell_von_mises: &[],
+    };
+    let piece = read_back("cells.vtu", &body_vtu(&fields).unwrap());
+    assert_eq!(piece.cells.types, [CellType::Hexahedron, CellType::Tetra]);
+    assert_eq!(connectivity(&piece).1, [8, 12]);
+    assert_eq!(array(&piece.data.point, "displacement"), displacement);
+
+    let short = BodyFields {
+        displacement: &displacement[1..],
+        ..fields
+    };
+    let refused = body_vtu(&short).unwrap_err().to_string();
+    assert_eq!(refused, "displacement: expected 24 entries, found 23");
+}
+
+#[test]
+fn the_contact_surface_is_read_back_and_blank_where_there_is_no_contact() {
+    let row = Row::new();
+    let (mesh, facets) = (&row.body.mesh, &row.surface.facets);
+    let text = contact_vtu(&row.report(), mesh, facets, &row.displacement).unwrap();
+    let piece = read_back("row_contact.vtu", &text);
+    assert_eq!(piece.cells.types, [CellType::Line; 3]);
+    assert_eq!(connectivity(&piece).0, [0, 1, 1, 2, 2, 3]);
+    assert_eq!(array(&piece.data.point, "state"), [2.0, 1.0, 0.0, -1.0]);
+    assert_eq!(array(&piece.data.point, "node"), [0.0, 1.0, 2.0, 3.0]);
+    let pressure = array(&piece.data.point, "pressure");
+    assert_eq!(pressure[..3], [8.0, 6.0, 0.0]);
+    assert!(pressure[3].is_nan());
+    assert_eq!(
+        array(&piece.data.point, "friction_traction")[..3],
+        [-4.0, 0.0, 0.0]
+    );
+    assert_eq!(array(&piece.data.point, "gap")[..3], [0.0, 0.0, 0.25]);
+    assert_eq!(array(&piece.data.point, "slip")[6..9], [0.3, 0.0, 0.0]);
+}
+
+#[test]
+fn contacts_without_facets_are_shown_as_points() {
+    let row = Row::new();
+    let text = contact_vtu(&row.report(), &row.body.mesh, &[], &row.displacement).unwrap();
+    let piece = read_back("points_contact.vtu", &text);
+    assert_eq!(piece.cells.types, [CellType::Vertex; 3]);
+    let stray = [Facet { nodes: vec![0, 99] }];
+    assert!(contact_vtu(&row.report(), &row.body.mesh, &stray, &row.displacement).is_err());
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("writes");
+    std::fs::create_dir_all(&folder).unwrap();
+    let path = folder.join("body.vtu");
+    replace_file(&path, "old").unwrap();
+    replace_file(&path, "new").unwrap();
+    assert_eq!(std::fs::read_to_string(&path).unwrap(), "new");
+    // A folder stands where the file should go.
+    let refused = replace_file(&folder, "text").unwrap_err().to_string();
+    assert!(refused.contains("writes: cannot be written"), "{refused}");
+    let missing = folder.join("missing").join("body.vtu");
+    assert!(replace_file(&missing, "text").is_err());
+    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
+    assert_eq!(contact_path(&path), folder.join("body_contact.vtu"));
+}
