@@ -18,7 +18,7 @@ mod material;
 pub mod mesh;
 mod quadrature;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 mod sparsity;
 mod stiffness;
 mod stress;
