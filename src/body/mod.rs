@@ -10,6 +10,7 @@
 
 mod boundary;
 mod cell;
+mod check;
 mod dilatation;
 mod facet;
 mod incidence;
@@ -17,6 +18,7 @@ mod load;
 mod material;
 pub mod mesh;
 mod quadrature;
+mod rigid;
 #[cfg(test)]
 pub(crate) mod samples;
 mod sparsity;
@@ -25,10 +27,12 @@ mod stress;
 mod structured;
 mod support;
 
+pub use check::check;
 pub use facet::FacetGeometry;
 pub use load::load_vector;
 pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
+pub use rigid::{RigidMotion, free_motion};
 pub use stiffness::stiffness;
 pub use stress::{cell_stress, nodal_stress, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
