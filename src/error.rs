@@ -69,17 +69,6 @@ pub enum Error {
         position: [f64; 3],
     },
 
-    /// A facet of a contact pair is no facet of the body's boundary.
-    #[error("{place}: the facet with nodes {nodes:?} is not on the boundary of {body}")]
-    NotOnBoundary {
-        /// The facet, such as `contacts[0].facets[7]`.
-        place: String,
-        /// Its nodes.
-        nodes: Vec<usize>,
-        /// Name of the body.
-        body: String,
-    },
-
     /// No facet of a contact pair looks at its obstacle.
     #[error(
         "{place}: none of the {facets} facets faces the obstacle, their outward normals point \

@@ -29,7 +29,7 @@ pub struct CondensationWork {
     pub unknowns: usize,
     /// Stored entries of the factor L.
     pub factor_entries: usize,
-    /// Stiffness and load, in second.
+    /// Checks, contact surface, stiffness and load, in second.
     pub assembly_seconds: f64,
     /// Order of elimination, in second.
     pub ordering_seconds: f64,
@@ -62,12 +62,20 @@ impl Condensed {
     ///
     /// # Errors
     ///
-    /// What [`ContactSurface::new`] refuses, contradictory supports, a body that can
-    /// move without deforming, a stiffness that is not positive definite.
+    /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
+    /// [`ContactSurface::new`] refuse, a rigid motion that the supports leave free, a
+    /// stiffness that is not positive definite.
     pub fn new(body: &Body, pairs: &[ContactPair]) -> Result<Self, Error> {
+        let start = Instant::now();
+        body::check(body)?;
         let prescribed = body::prescribed(body)?;
         let surface = ContactSurface::new(body, pairs, &prescribed)?;
-        let start = Instant::now();
+        if let Some(motion) = body::free_motion(body, &prescribed) {
+            return Err(Error::FreeMotion {
+                body: body.name.clone(),
+                motion: motion.to_string(),
+            });
+        }
         let supported = SupportedBody {
             name: &body.name,
             nodes: &body.mesh.nodes,
@@ -312,9 +320,9 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_nothing_holds_is_refused() {
-        let body = block(CellKind::Hex8);
+    fn a_body_that_nothing_holds_is_refused_with_its_motion() {
         let (_, pair) = pressed(CellKind::Hex8);
-        assert!(Condensed::new(&body, &[pair]).is_err());
+        let found = Condensed::new(&block(CellKind::Hex8), &[pair]).unwrap_err();
+        assert!(matches!(found, Error::FreeMotion { .. }), "{found}");
     }
 }

@@ -421,7 +421,7 @@ mod tests {
     }
 
     #[test]
-    fn a_stiffness_that_is_not_a_number_is_refused() {
+    fn a_load_that_is_not_a_number_is_refused() {
         let mut bed = Bed::new([3, 3, 0], 0.0, true);
         bed.load[5] = f64::NAN;
         assert!(bed.condense().is_err());

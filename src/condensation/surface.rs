@@ -93,7 +93,7 @@ impl ContactSurface {
         let mut pair_of_facet = HashMap::new();
         for (index, pair) in pairs.iter().enumerate() {
             pair.check(body.mesh.dimension)?;
-            let facing = boundary.facing(body, pair, index, &mut pair_of_facet)?;
+            let facing = boundary.facing(pair, index, &mut pair_of_facet)?;
             for (node, area) in areas(body, &facing) {
                 let Some(contact) = contact(body, pair, index, node, area, prescribed)? else {
                     surface.left_out.push(node);
@@ -162,7 +162,6 @@ impl<'a> Boundary<'a> {
     /// The facets of a pair that face its obstacle, each once; all of them are noted as the pair's.
     fn facing(
         &self,
-        body: &Body,
         pair: &ContactPair,
         pair_index: usize,
         pair_of_facet: &mut HashMap<usize, usize>,
@@ -171,11 +170,7 @@ impl<'a> Boundary<'a> {
         let mut facing = Vec::new();
         for (at, facet) in pair.facets.iter().enumerate() {
             let Some(&index) = self.index_of.get(&key(facet)) else {
-                return Err(Error::NotOnBoundary {
-                    place: format!("{}.facets[{at}]", pair.place),
-                    nodes: facet.nodes.clone(),
-                    body: body.name.clone(),
-                });
+                return Err(self.refuse(facet, format!("{}.facets[{at}]", pair.place)));
             };
             if !seen.insert(index) {
                 continue;
@@ -195,6 +190,19 @@ impl<'a> Boundary<'a> {
             });
         }
         Ok(facing)
+    }
+
+    /// Why a facet is not one of the boundary.
+    fn refuse(&self, facet: &Facet, place: String) -> Error {
+        let cells = match self.mesh.orient(std::slice::from_ref(facet)) {
+            Err(Error::FacetOwners { cells, .. }) => cells,
+            _ => 0,
+        };
+        Error::FacetOwners {
+            place,
+            nodes: facet.nodes.clone(),
+            cells,
+        }
     }
 
     /// Mean of the nodes, in metre.
