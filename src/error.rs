@@ -52,6 +52,144 @@ pub enum Error {
         reason: String,
     },
 
+    /// A vector that cannot serve as the direction it is meant for.
+    #[error("{place}: {value:?} is not accepted; expected {accepted}")]
+    Direction {
+        /// Where the vector stands, such as `contacts[0].obstacle.normal`.
+        place: String,
+        /// The offending vector.
+        value: [f64; 3],
+        /// What is accepted, in words.
+        accepted: &'static str,
+    },
+
+    /// A sphere in front of a 2D body.
+    #[error("{place}: a sphere cannot touch a 2D body; expected a plane or a cylinder")]
+    ObstacleDimension {
+        /// The obstacle, such as `contacts[0].obstacle`.
+        place: String,
+    },
+
+    /// A point that is equally far from all of a round obstacle.
+    #[error(
+        "{place}: the point {position:?} lies on the obstacle's axis or centre, \
+         so no point of the obstacle is closest to it"
+    )]
+    NoClosestPoint {
+        /// The contact pair, such as `contacts[0]`.
+        place: String,
+        /// The point of the body, in metre.
+        position: [f64; 3],
+    },
+
+    /// No facet of a contact pair looks at its obstacle.
+    #[error(
+        "{place}: none of the {facets} facets faces the obstacle, their outward normals point \
+         away from it; expected at least one facet whose outward normal points towards it"
+    )]
+    NothingFacesObstacle {
+        /// The contact pair, such as `contacts[0]`.
+        place: String,
+        /// Number of facets of the pair.
+        facets: usize,
+    },
+
+    /// No contact node is left.
+    #[error(
+        "the contact surface is empty: {pairs} contact pairs, {left_out} nodes left out because \
+         a support holds their normal; expected at least one node that can move along its normal"
+    )]
+    EmptyContactSurface {
+        /// Number of contact pairs.
+        pairs: usize,
+        /// Number of nodes left out.
+        left_out: usize,
+    },
+
+    /// A node belongs to two contact pairs.
+    #[error(
+        "node {node} at {position:?} belongs to {first} and to {second}; \
+         expected at most one contact pair per node"
+    )]
+    NodeInTwoPairs {
+        /// The node.
+        node: usize,
+        /// Its position, in metre.
+        position: [f64; 3],
+        /// The contact pair that has it already.
+        first: String,
+        /// The contact pair that claims it too.
+        second: String,
+    },
+
+    /// A support of a contact node is neither along nor across its normal.
+    #[error(
+        "{place}: node {node} at {position:?} has its normal along {normal:?} and is supported \
+         along {axes}; expected supports that hold the normal or leave it free entirely"
+    )]
+    SupportAskew {
+        /// The contact pair, such as `contacts[0]`.
+        place: String,
+        /// The node.
+        node: usize,
+        /// Its position, in metre.
+        position: [f64; 3],
+        /// Its contact normal.
+        normal: [f64; 3],
+        /// The supported axes, such as `x and y`.
+        axes: String,
+    },
+
+    /// A contact node with friction is moved along the obstacle by a support.
+    #[error(
+        "{place}: node {node} at {position:?} has friction {friction} and a support moves it \
+         by {displacement} m along {axis}; expected 0 there, or no friction"
+    )]
+    DraggedContact {
+        /// The contact pair, such as `contacts[0]`.
+        place: String,
+        /// The node.
+        node: usize,
+        /// Its position, in metre.
+        position: [f64; 3],
+        /// Coefficient of friction of the pair.
+        friction: f64,
+        /// Prescribed displacement, in metre.
+        displacement: f64,
+        /// The axis, `x`, `y` or `z`.
+        axis: char,
+    },
+
+    /// The stiffness of the supported body is not positive definite.
+    #[error(
+        "{body}: the stiffness is not positive definite at node {node} at {position:?} \
+         (pivot {pivot:e} N/m of {diagonal:e} N/m); expected supports that hold every motion, \
+         cells without hinges, and a positive definite material"
+    )]
+    NotPositiveDefinite {
+        /// Name of the body.
+        body: String,
+        /// Node at which the elimination broke down.
+        node: usize,
+        /// Its position, in metre.
+        position: [f64; 3],
+        /// The pivot, in N/m; NaN where the elimination stopped before computing it.
+        pivot: f64,
+        /// The diagonal entry it is left of, in N/m.
+        diagonal: f64,
+    },
+
+    /// A stage ran out of memory or of index range.
+    #[error("{body}: {stage} of {unknowns} unknowns needs more memory than there is")]
+    TooLarge {
+        /// Name of the body.
+        body: String,
+        /// The stage, such as `ordering`.
+        stage: &'static str,
+        /// Number of unknowns.
+        unknowns: usize,
+    },
+
     /// The operator of a bare problem is not symmetric.
     #[error(
         "operator[{row}][{column}] differs from operator[{column}][{row}] by {violation:e} \

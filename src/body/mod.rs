@@ -20,7 +20,7 @@ pub mod mesh;
 mod quadrature;
 mod rigid;
 #[cfg(test)]
-mod samples;
+pub(crate) mod samples;
 mod sparsity;
 mod stiffness;
 mod stress;

@@ -7,13 +7,33 @@
 //! ```
 //!
 //! G does not depend on loads, gap or friction: one factorisation serves every load case.
+//!
+//! | step | file |
+//! |---|---|
+//! | where the body may touch what | `obstacle`, `surface`, `frame` |
+//! | the stiffness in the contact's axes (C4) | `frames` |
+//! | order of elimination, contact last | `ordering`, `elimination_tree` |
+//! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
+//! | free displacement (C5) | `supported` |
+//! | recovered body (C6) | `condensed` |
 
+mod condensed;
+mod elimination_tree;
+mod factor;
+mod frame;
+mod frames;
+#[cfg(test)]
+mod lattice;
 pub mod obstacle;
 pub mod operator;
+mod ordering;
 pub mod problem;
+mod substitution;
+mod supported;
 pub mod surface;
 
-pub use obstacle::Obstacle;
+pub use condensed::{CondensationWork, Condensed};
+pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;
 pub use surface::{ContactNode, ContactPair, ContactSurface};

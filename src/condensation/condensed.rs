@@ -1,0 +1,328 @@
+//! A body condensed onto its contact surface, and the way back.
+//!
+//! ```text
+//! (C5)  L y = P Qᵀ (f − K u_p),   û_c = L_cc⁻ᵀ y_c           u_p: prescribed displacement
+//! (C6)  Lᵀ x = y + [0, L_cc⁻¹ t],  u = u_p + Q Pᵀ x           Q: the frames (C4), P: the ordering
+//! ```
+//!
+//! One forward and one backward substitution serve the free displacement and the
+//! recovered body together.
+
+use std::time::Instant;
+
+use sprs::CsMat;
+
+use super::factor::Factor;
+use super::frames::Frames;
+use super::ordering::Ordering;
+use super::supported::SupportedBody;
+use super::{ContactPair, ContactProblem, ContactSurface};
+use crate::body::{self, Body};
+use crate::error::{Error, check_length};
+
+/// Counts and wall time of a condensation.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CondensationWork {
+    /// Sparse factorisations.
+    pub factorisations: usize,
+    /// Unknowns of the supported body, contact unknowns included.
+    pub unknowns: usize,
+    /// Stored entries of the factor L.
+    pub factor_entries: usize,
+    /// Checks, contact surface, stiffness and load, in second.
+    pub assembly_seconds: f64,
+    /// Order of elimination, in second.
+    pub ordering_seconds: f64,
+    /// Factorisation, symbolic and numeric, in second.
+    pub factorisation_seconds: f64,
+    /// Its numeric part, in second.
+    pub numeric_seconds: f64,
+    /// Trailing block, compliance and free displacement, in second.
+    pub condensation_seconds: f64,
+}
+
+/// A body, its contact surface, and the factor that joins them.
+#[derive(Debug)]
+pub struct Condensed {
+    pub(super) surface: ContactSurface,
+    pub(super) problem: ContactProblem,
+    pub(super) stiffness: CsMat<f64>,
+    pub(super) load: Vec<f64>,
+    pub(super) prescribed: Vec<Option<f64>>,
+    pub(super) work: CondensationWork,
+    pub(super) frames: Frames,
+    pub(super) ordering: Ordering,
+    pub(super) factor: Factor,
+    /// `y` of (C5).
+    pub(super) half_solved: Vec<f64>,
+}
+
+impl Condensed {
+    /// Condenses a body onto the surface where it may touch its obstacles.
+    ///
+    /// # Errors
+    ///
+    /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
+    /// [`ContactSurface::new`] refuse, a rigid motion that the supports leave free, a
+    /// stiffness that is not positive definite.
+    pub fn new(body: &Body, pairs: &[ContactPair]) -> Result<Self, Error> {
+        let start = Instant::now();
+        body::check(body)?;
+        let prescribed = body::prescribed(body)?;
+        let surface = ContactSurface::new(body, pairs, &prescribed)?;
+        if let Some(motion) = body::free_motion(body, &prescribed) {
+            return Err(Error::FreeMotion {
+                body: body.name.clone(),
+                motion: motion.to_string(),
+            });
+        }
+        let supported = SupportedBody {
+            name: &body.name,
+            nodes: &body.mesh.nodes,
+            dimension: body.mesh.dimension,
+            stiffness: body::stiffness(body),
+            load: body::load_vector(body),
+            prescribed,
+        };
+        let assembly_seconds = start.elapsed().as_secs_f64();
+        let friction = surface
+            .nodes
+            .iter()
+            .map(|contact| pairs[contact.pair].friction);
+        let friction = friction.collect();
+        let mut condensed = supported.condense(surface, friction)?;
+        condensed.work.assembly_seconds = assembly_seconds;
+        Ok(condensed)
+    }
+
+    /// The contact surface.
+    #[must_use]
+    pub fn surface(&self) -> &ContactSurface {
+        &self.surface
+    }
+
+    /// The condensed contact problem, one contact per contact node.
+    #[must_use]
+    pub fn problem(&self) -> &ContactProblem {
+        &self.problem
+    }
+
+    /// Stiffness K of the whole body in global axes, supports not applied, in N/m.
+    #[must_use]
+    pub fn stiffness(&self) -> &CsMat<f64> {
+        &self.stiffness
+    }
+
+    /// Load f per degree of freedom (`node · dimension + axis`), in newton.
+    #[must_use]
+    pub fn load(&self) -> &[f64] {
+        &self.load
+    }
+
+    /// Prescribed displacement per degree of freedom, in metre.
+    #[must_use]
+    pub fn prescribed(&self) -> &[Option<f64>] {
+        &self.prescribed
+    }
+
+    /// What it took.
+    #[must_use]
+    pub fn work(&self) -> CondensationWork {
+        self.work
+    }
+
+    /// Displacement of every node under the load and a contact reaction (C6), in metre.
+    ///
+    /// `reaction` is in newton, per unknown of the contact problem; the result is in global axes
+    /// per degree of freedom.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if the reaction does not fit the contact problem.
+    pub fn recover(&self, reaction: &[f64]) -> Result<Vec<f64>, Error> {
+        check_length("reaction", self.problem.unknowns(), reaction.len())?;
+        let ordinary = self.ordering.ordinary();
+        let mut x = vec![0.0; self.ordering.unknowns()];
+        x[ordinary..].copy_from_slice(reaction);
+        self.factor.forward_on_contact(&mut x);
+        for (x, y) in x.iter_mut().zip(&self.half_solved) {
+            *x += y;
+        }
+        self.factor.backward(&mut x);
+
+        let mut displacement = vec![0.0; self.load.len()];
+        for (&dof, &value) in self.ordering.dof.iter().zip(&x) {
+            displacement[dof] = value;
+        }
+        self.frames.turn_to_global(&mut displacement);
+        for (u, prescribed) in displacement.iter_mut().zip(&self.prescribed) {
+            // A held tangent is a global axis: nothing else moves the node along it.
+            if let Some(value) = prescribed {
+                *u = *value;
+            }
+        }
+        Ok(displacement)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::samples::{block, distorted, facets};
+    use crate::body::{CellKind, Load, Support};
+    use crate::condensation::Obstacle;
+
+    const KINDS: [CellKind; 4] = [
+        CellKind::Tri3,
+        CellKind::Quad4,
+        CellKind::Tet4,
+        CellKind::Hex8,
+    ];
+
+    /// The distorted block above a plane 1 mm away, held at its right side, pressed on top.
+    fn pressed(kind: CellKind) -> (Body, ContactPair) {
+        let mut body = distorted(kind);
+        let right = facets(&body.mesh, "right");
+        body.supports.push(Support {
+            place: "supports[0]".to_owned(),
+            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            displacement: [Some(0.0), Some(0.01), Some(0.0)],
+        });
+        body.loads.push(Load::Pressure {
+            facets: facets(&body.mesh, "top"),
+            pressure: 0.7,
+        });
+        let vertical = kind.dimension() - 1;
+        let mut normal = [0.0; 3];
+        normal[vertical] = 2.0;
+        let pair = ContactPair {
+            place: "contacts[0]".to_owned(),
+            facets: facets(&body.mesh, "bottom"),
+            obstacle: Obstacle::Plane {
+                point: normal.map(|component| -0.0005 * component),
+                normal,
+            },
+            friction: 0.4,
+        };
+        (body, pair)
+    }
+
+    fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+        values.into_iter().fold(0.0, |m, x| x.abs().max(m))
+    }
+
+    fn assert_close(found: &[f64], expected: &[f64]) {
+        let scale = largest(expected.iter().copied());
+        let difference = largest(found.iter().zip(expected).map(|(a, b)| a - b));
+        assert!(difference <= 1e-11 * scale, "{difference:e} of {scale:e}");
+    }
+
+    /// A reaction with every sign, in newton.
+    fn some_reaction(count: usize) -> Vec<f64> {
+        (0..count).map(|i| ((5 * i) % 7) as f64 - 3.0).collect()
+    }
+
+    #[test]
+    fn the_recovered_body_is_in_equilibrium_with_load_and_contact_forces() {
+        for kind in KINDS {
+            let (body, pair) = pressed(kind);
+            let condensed = Condensed::new(&body, &[pair]).unwrap();
+            let reaction = some_reaction(condensed.problem().unknowns());
+            let displacement = condensed.recover(&reaction).unwrap();
+            // (B2): K u − f − contact forces vanishes wherever no support acts.
+            let mut rest: Vec<f64> = condensed.load().iter().map(|f| -f).collect();
+            for (&value, (row, column)) in condensed.stiffness() {
+                rest[row] += value * displacement[column];
+            }
+            let axes = body.mesh.dimension;
+            let offsets = condensed.problem().offsets();
+            for (contact, &first) in condensed.surface().nodes.iter().zip(offsets) {
+                for row in 0..=contact.tangents {
+                    for axis in 0..axes {
+                        rest[contact.node * axes + axis] -=
+                            contact.frame[row][axis] * reaction[first + row];
+                    }
+                }
+            }
+            let free = rest.iter().zip(condensed.prescribed());
+            let free = free.filter(|(_, u)| u.is_none()).map(|(r, _)| *r);
+            assert!(largest(free) < 1e-12, "{kind:?}");
+            for (u, prescribed) in displacement.iter().zip(condensed.prescribed()) {
+                assert!(prescribed.is_none_or(|prescribed| prescribed == *u));
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_turned_in_space_has_the_same_contact_problem() {
+        // Turn by an angle of 0.6 about z: supports stay along axes only if all are held.
+        let turn = |[x, y, z]: [f64; 3]| {
+            let (sin, cos) = 0.6_f64.sin_cos();
+            [cos * x - sin * y, sin * x + cos * y, z]
+        };
+        for kind in [CellKind::Quad4, CellKind::Tri3] {
+            let (mut body, pair) = pressed(kind);
+            body.supports[0].displacement = [Some(0.0); 3];
+            let straight = Condensed::new(&body, std::slice::from_ref(&pair)).unwrap();
+            body.mesh
+                .nodes
+                .iter_mut()
+                .for_each(|node| *node = turn(*node));
+            let mut turned_pair = pair;
+            if let Obstacle::Plane { point, normal } = &mut turned_pair.obstacle {
+                (*point, *normal) = (turn(*point), turn(*normal));
+            }
+            let turned = Condensed::new(&body, &[turned_pair]).unwrap();
+            let (a, b) = (straight.problem(), turned.problem());
+            assert_close(b.initial_gap(), a.initial_gap());
+            assert_close(b.free_displacement(), a.free_displacement());
+            for column in 0..a.unknowns() {
+                assert_close(
+                    b.compliance().col_as_slice(column),
+                    a.compliance().col_as_slice(column),
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_surface_grown_over_the_sides_gives_the_same_problem_to_the_last_bit() {
+        let (body, pair) = pressed(CellKind::Hex8);
+        let mut grown = pair.clone();
+        for side in ["left", "front", "top"] {
+            grown.facets.extend(facets(&body.mesh, side));
+        }
+        let small = Condensed::new(&body, &[pair]).unwrap();
+        let large = Condensed::new(&body, &[grown]).unwrap();
+        assert_eq!(
+            small.problem().free_displacement(),
+            large.problem().free_displacement()
+        );
+        assert_eq!(small.problem().compliance(), large.problem().compliance());
+    }
+
+    #[test]
+    fn one_factorisation_serves_a_condensation() {
+        let (body, pair) = pressed(CellKind::Quad4);
+        let condensed = Condensed::new(&body, &[pair]).unwrap();
+        let work = condensed.work();
+        // 5 × 3 nodes, 3 of them held: 24 unknowns; L has at least a triangle of the contact block.
+        assert_eq!((work.factorisations, work.unknowns), (1, 24));
+        assert!(work.factor_entries >= 8 * 9 / 2);
+    }
+
+    #[test]
+    fn a_reaction_of_the_wrong_length_is_refused() {
+        let (body, pair) = pressed(CellKind::Quad4);
+        let condensed = Condensed::new(&body, &[pair]).unwrap();
+        assert!(condensed.recover(&[0.0]).is_err());
+    }
+
+    #[test]
+    fn a_body_that_nothing_holds_is_refused_with_its_motion() {
+        let (_, pair) = pressed(CellKind::Hex8);
+        let found = Condensed::new(&block(CellKind::Hex8), &[pair]).unwrap_err();
+        assert!(matches!(found, Error::FreeMotion { .. }), "{found}");
+    }
+}

@@ -1,0 +1,429 @@
+//! The supported body: which displacements are unknown, and how they are condensed.
+
+use std::time::Instant;
+
+use sprs::CsMat;
+
+use super::factor::{Breakdown, Factor};
+use super::frames::Frames;
+use super::ordering::{Ordering, Role};
+use super::{CondensationWork, Condensed, ContactProblem, ContactSurface, Operator};
+use crate::error::Error;
+
+/// The assembled body, before it is condensed.
+pub(super) struct SupportedBody<'a> {
+    pub(super) name: &'a str,
+    pub(super) nodes: &'a [[f64; 3]],
+    pub(super) dimension: usize,
+    pub(super) stiffness: CsMat<f64>,
+    pub(super) load: Vec<f64>,
+    pub(super) prescribed: Vec<Option<f64>>,
+}
+
+impl SupportedBody<'_> {
+    /// Orders, factorises and condenses (C2), (C5).
+    pub(super) fn condense(
+        self,
+        surface: ContactSurface,
+        friction: Vec<f64>,
+    ) -> Result<Condensed, Error> {
+        let start = Instant::now();
+        let frames = Frames::new(self.dimension, self.nodes.len(), &surface.nodes);
+        let (roles, contact) = self.roles(&surface);
+        let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
+            .ok_or_else(|| self.too_large("ordering"))?;
+        let ordering_seconds = start.elapsed().as_secs_f64();
+
+        let start = Instant::now();
+        let factor = Factor::new(&self.stiffness, &frames, &ordering)
+            .map_err(|breakdown| self.explain(breakdown))?;
+        let factorisation_seconds = start.elapsed().as_secs_f64();
+
+        let start = Instant::now();
+        let mut half_solved = self.right_hand_side(&frames, &ordering);
+        factor.forward(&mut half_solved);
+        let free_displacement = factor
+            .backward_on_contact(&mut half_solved.clone())
+            .to_vec();
+        let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
+        let problem = ContactProblem::new(
+            &tangents,
+            friction,
+            surface.nodes.iter().map(|node| node.initial_gap).collect(),
+            free_displacement,
+            Operator::from_factor(factor.trailing_block()),
+        )?;
+        let work = CondensationWork {
+            factorisations: 1,
+            unknowns: factor.unknowns(),
+            factor_entries: factor.entries(),
+            assembly_seconds: 0.0,
+            ordering_seconds,
+            factorisation_seconds,
+            numeric_seconds: factor.numeric_seconds,
+            condensation_seconds: start.elapsed().as_secs_f64(),
+        };
+        Ok(Condensed {
+            surface,
+            problem,
+            stiffness: self.stiffness,
+            load: self.load,
+            prescribed: self.prescribed,
+            work,
+            frames,
+            ordering,
+            factor,
+            half_solved,
+        })
+    }
+
+    /// The role of each degree of freedom in the frames, and those of the contact problem in order.
+    fn roles(&self, surface: &ContactSurface) -> (Vec<Role>, Vec<usize>) {
+        let role = |held: bool| if held { Role::Held } else { Role::Ordinary };
+        let mut roles: Vec<Role> = self
+            .prescribed
+            .iter()
+            .map(|value| role(value.is_some()))
+            .collect();
+        let mut contact = Vec::new();
+        for node in &surface.nodes {
+            let first = node.node * self.dimension;
+            let supported = &self.prescribed[first..first + self.dimension];
+            for (row, direction) in node.frame[..self.dimension].iter().enumerate() {
+                let along = direction.iter().zip(supported);
+                roles[first + row] = if row <= node.tangents {
+                    contact.push(first + row);
+                    Role::Contact
+                } else {
+                    // Held tangents are global axes: the component is one or zero.
+                    role(along.clone().any(|(d, u)| u.is_some() && d.abs() > 0.5))
+                };
+            }
+        }
+        (roles, contact)
+    }
+
+    /// `P Qᵀ (f − K u_p)`, in newton.
+    fn right_hand_side(&self, frames: &Frames, ordering: &Ordering) -> Vec<f64> {
+        let mut force = self.load.clone();
+        for (column, value) in self.prescribed.iter().enumerate() {
+            let Some(value) = value.filter(|&value| value != 0.0) else {
+                continue;
+            };
+            // K is symmetric: its row is its column.
+            let entries = self.stiffness.indptr().outer_inds_sz(column);
+            let rows = &self.stiffness.indices()[entries.clone()];
+            for (&row, entry) in rows.iter().zip(&self.stiffness.data()[entries]) {
+                force[row] -= entry * value;
+            }
+        }
+        frames.turn_to_local(&mut force);
+        ordering.dof.iter().map(|&dof| force[dof]).collect()
+    }
+
+    fn too_large(&self, stage: &'static str) -> Error {
+        Error::TooLarge {
+            body: self.name.to_owned(),
+            stage,
+            unknowns: self.load.len(),
+        }
+    }
+
+    fn explain(&self, breakdown: Breakdown) -> Error {
+        match breakdown {
+            Breakdown::TooLarge => self.too_large("factorisation"),
+            Breakdown::Pivot {
+                dof,
+                pivot,
+                diagonal,
+            } => Error::NotPositiveDefinite {
+                body: self.name.to_owned(),
+                node: dof / self.dimension,
+                position: self.nodes[dof / self.dimension],
+                pivot,
+                diagonal,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::super::ContactNode;
+    use super::super::frame::Stance;
+    use super::super::lattice::{Lattice, dense};
+    use super::*;
+    use faer::Mat;
+    use faer::linalg::solvers::Solve;
+
+    /// A lattice on a rough bed: contacts at the bottom, supports, a load on every node.
+    struct Bed {
+        lattice: Lattice,
+        dimension: usize,
+        prescribed: Vec<Option<f64>>,
+        load: Vec<f64>,
+        contacts: Vec<ContactNode>,
+    }
+
+    impl Bed {
+        /// The side `x = width` is held along x and moved by 0.01 m; top corners of it are held.
+        fn new(cells: [usize; 3], tilt: f64, friction: bool) -> Self {
+            let lattice = Lattice::new(cells);
+            let dimension = if cells[2] == 0 { 2 } else { 3 };
+            let mut prescribed = vec![None; lattice.nodes() * dimension];
+            for node in 0..lattice.nodes() {
+                if lattice.position(node)[0] == cells[0] as f64 {
+                    prescribed[node * dimension] = Some(0.01);
+                }
+            }
+            // One corner in 2D, two in 3D, which also stop the turn about x.
+            for y in if dimension == 2 {
+                vec![cells[1]]
+            } else {
+                vec![0, cells[1]]
+            } {
+                let corner = lattice.node([cells[0], y, cells[2]]) * dimension;
+                prescribed[corner..corner + dimension].fill(Some(-0.02));
+            }
+            let load = (0..prescribed.len()).map(|d| ((d * d + 3) % 7) as f64 - 3.0);
+            let load = load.collect();
+            let mut bed = Self {
+                lattice,
+                dimension,
+                prescribed,
+                load,
+                contacts: Vec::new(),
+            };
+            bed.lay(cells, tilt, friction);
+            bed
+        }
+
+        /// Contacts along the bottom edge (2D) or face (3D), listed against the node numbers.
+        fn lay(&mut self, cells: [usize; 3], tilt: f64, friction: bool) {
+            for node in (0..self.lattice.nodes()).rev() {
+                let position = self.lattice.position(node);
+                let on_symmetry = position[0] == cells[0] as f64;
+                if position[self.dimension - 1] > 0.0 {
+                    continue;
+                }
+                let tilt = if on_symmetry { 0.0 } else { tilt };
+                let mut normal = [tilt.sin(), 0.0, 0.0];
+                normal[self.dimension - 1] = -tilt.cos();
+                let Stance::Free { frame, kept } =
+                    Stance::new(self.dimension, normal, [on_symmetry, false, false])
+                else {
+                    continue;
+                };
+                self.contacts.push(ContactNode {
+                    node,
+                    pair: 0,
+                    position,
+                    frame,
+                    tangents: if friction { kept } else { 0 },
+                    initial_gap: 0.0,
+                    area: 1.0,
+                    rim: false,
+                });
+            }
+        }
+
+        fn condense(&self) -> Result<Condensed, Error> {
+            let nodes: Vec<_> = (0..self.lattice.nodes())
+                .map(|node| self.lattice.position(node))
+                .collect();
+            let surface = ContactSurface {
+                nodes: self.contacts.clone(),
+                ..ContactSurface::default()
+            };
+            let friction = vec![0.5; self.contacts.len()];
+            SupportedBody {
+                name: "bed",
+                nodes: &nodes,
+                dimension: self.dimension,
+                stiffness: self.lattice.stiffness(),
+                load: self.load.clone(),
+                prescribed: self.prescribed.clone(),
+            }
+            .condense(surface, friction)
+        }
+
+        /// Unit forces of the contact unknowns in global axes, one per column.
+        fn contact_directions(&self) -> Mat<f64> {
+            let count = self.contacts.iter().map(|c| 1 + c.tangents).sum();
+            let mut directions = Mat::zeros(self.load.len(), count);
+            let mut column = 0;
+            for contact in &self.contacts {
+                for row in 0..=contact.tangents {
+                    for axis in 0..self.dimension {
+                        let dof = contact.node * self.dimension + axis;
+                        directions[(dof, column)] = contact.frame[row][axis];
+                    }
+                    column += 1;
+                }
+            }
+            directions
+        }
+
+        /// Displacement under a force per degree of freedom, solved densely in global axes.
+        fn solve(&self, force: &Mat<f64>, move_supports: bool) -> Mat<f64> {
+            let mut matrix = dense(&self.lattice.stiffness());
+            let mut right = force.clone();
+            let size = matrix.nrows();
+            for (held, value) in self.prescribed.iter().enumerate() {
+                let Some(value) = value else { continue };
+                let value = if move_supports { *value } else { 0.0 };
+                for i in 0..size {
+                    for j in 0..right.ncols() {
+                        right[(i, j)] -= matrix[(i, held)] * value;
+                    }
+                }
+                for i in 0..size {
+                    matrix[(i, held)] = 0.0;
+                    matrix[(held, i)] = 0.0;
+                }
+                matrix[(held, held)] = 1.0;
+                for j in 0..right.ncols() {
+                    right[(held, j)] = value;
+                }
+            }
+            for held in 0..size {
+                if let (Some(value), true) = (self.prescribed[held], move_supports) {
+                    for j in 0..right.ncols() {
+                        right[(held, j)] = value;
+                    }
+                }
+            }
+            matrix.partial_piv_lu().solve(&right)
+        }
+
+        fn load(&self) -> Mat<f64> {
+            Mat::from_fn(self.load.len(), 1, |i, _| self.load[i])
+        }
+    }
+
+    fn beds() -> Vec<Bed> {
+        let mut beds = Vec::new();
+        for cells in [[9, 6, 0], [4, 3, 4]] {
+            for tilt in [0.0, 0.4] {
+                for friction in [true, false] {
+                    beds.push(Bed::new(cells, tilt, friction));
+                }
+            }
+        }
+        beds
+    }
+
+    fn assert_close(found: &Mat<f64>, expected: &Mat<f64>) {
+        let difference = (found - expected).norm_max();
+        assert!(difference < 1e-12 * expected.norm_max(), "{difference:e}");
+    }
+
+    #[test]
+    fn the_compliance_is_the_displacement_under_unit_contact_forces() {
+        for bed in beds() {
+            let directions = bed.contact_directions();
+            let expected = directions.transpose() * bed.solve(&directions, false);
+            assert_close(bed.condense().unwrap().problem().compliance(), &expected);
+        }
+    }
+
+    #[test]
+    fn the_stiffness_is_the_schur_complement_of_the_contact_unknowns() {
+        // Flat bed, so the frames are global axes up to sign: S = K_cc − K_co K_oo⁻¹ K_oc.
+        let bed = Bed::new([9, 6, 0], 0.0, true);
+        let directions = bed.contact_directions();
+        let matrix = dense(&bed.lattice.stiffness());
+        let touches = |dof: usize| (0..directions.ncols()).any(|c| directions[(dof, c)] != 0.0);
+        let ordinary: Vec<usize> = (0..matrix.nrows())
+            .filter(|&dof| bed.prescribed[dof].is_none() && !touches(dof))
+            .collect();
+        let size = ordinary.len();
+        let k_oo = Mat::from_fn(size, size, |i, j| matrix[(ordinary[i], ordinary[j])]);
+        let turned = &matrix * &directions;
+        let k_oc = Mat::from_fn(size, directions.ncols(), |i, j| turned[(ordinary[i], j)]);
+        let k_cc = directions.transpose() * &turned;
+        let expected = k_cc - k_oc.transpose() * k_oo.partial_piv_lu().solve(&k_oc);
+        let condensed = bed.condense().unwrap();
+        assert_close(
+            condensed.problem().operator().stiffness().unwrap(),
+            &expected,
+        );
+    }
+
+    #[test]
+    fn the_free_displacement_follows_load_and_moved_supports() {
+        for bed in beds() {
+            let expected = bed.contact_directions().transpose() * bed.solve(&bed.load(), true);
+            let condensed = bed.condense().unwrap();
+            let found = condensed.problem().free_displacement();
+            let found = Mat::from_fn(found.len(), 1, |i, _| found[i]);
+            assert_close(&found, &expected);
+        }
+    }
+
+    #[test]
+    fn the_recovered_body_is_that_of_the_load_and_the_contact_forces() {
+        for bed in beds() {
+            let condensed = bed.condense().unwrap();
+            let directions = bed.contact_directions();
+            let count = directions.ncols();
+            let reaction: Vec<f64> = (0..count).map(|i| ((5 * i) % 11) as f64 - 5.0).collect();
+            let forces = Mat::from_fn(count, 1, |i, _| reaction[i]);
+            let found = condensed.recover(&reaction).unwrap();
+            let found = Mat::from_fn(found.len(), 1, |i, _| found[i]);
+            let expected = bed.solve(&(bed.load() + &directions * &forces), true);
+            assert_close(&found, &expected);
+            // (C1): the contact's part of it is û + G t.
+            let problem = condensed.problem();
+            let free = problem.free_displacement();
+            let free = Mat::from_fn(count, 1, |i, _| free[i]);
+            let contact = free + problem.compliance() * &forces;
+            assert_close(&(directions.transpose() * &found), &contact);
+        }
+    }
+
+    #[test]
+    fn without_friction_the_compliance_is_the_normal_part_of_that_with_friction() {
+        for (cells, block) in [([9, 6, 0], 2), ([4, 3, 4], 3)] {
+            let rough = Bed::new(cells, 0.4, true).condense().unwrap();
+            let smooth = Bed::new(cells, 0.4, false).condense().unwrap();
+            let offsets = rough.problem().offsets();
+            assert_eq!(
+                offsets[offsets.len() - 1] - offsets[offsets.len() - 2],
+                block
+            );
+            let all = rough.problem().compliance();
+            let contacts = smooth.problem().contacts();
+            let normal = Mat::from_fn(contacts, contacts, |i, j| all[(offsets[i], offsets[j])]);
+            assert_eq!(smooth.problem().unknowns(), contacts);
+            assert_close(smooth.problem().compliance(), &normal);
+        }
+    }
+
+    #[test]
+    fn a_symmetry_plane_keeps_one_tangent_less() {
+        let flat = Bed::new([9, 6, 0], 0.0, true).condense().unwrap();
+        // Listed against the node numbers: the node at x = 9 comes first, held along x.
+        let offsets = flat.problem().offsets();
+        assert_eq!((offsets[1], offsets[2]), (1, 3));
+    }
+
+    #[test]
+    fn a_body_without_supports_is_refused_with_the_node_where_it_breaks_down() {
+        let mut bed = Bed::new([6, 5, 0], 0.0, true);
+        bed.prescribed.fill(None);
+        let found = bed.condense().unwrap_err();
+        assert!(
+            matches!(found, Error::NotPositiveDefinite { .. }),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn a_load_that_is_not_a_number_is_refused() {
+        let mut bed = Bed::new([3, 3, 0], 0.0, true);
+        bed.load[5] = f64::NAN;
+        assert!(bed.condense().is_err());
+    }
+}
