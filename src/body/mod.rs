@@ -8,6 +8,7 @@
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
 //! plane stress; every force below is for that depth.
 
+pub mod gmsh;
 pub mod mesh;
 
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
