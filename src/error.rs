@@ -142,14 +142,24 @@ pub enum Error {
         reason: String,
     },
 
-    /// Any of the above, in a scene that was read from a file.
-    #[error("{file}: {error}")]
-    InFile {
-        /// The scene's file.
-        file: String,
-        /// What is wrong in it.
+    /// Any other variant, with the larger place that it happened in.
+    #[error("{place}: {error}")]
+    Within {
+        /// Such as the scene's file, or the group of a load.
+        place: String,
+        /// What is wrong there.
         error: Box<Error>,
     },
+}
+
+impl Error {
+    /// Puts a larger place in front.
+    pub(crate) fn within(self, place: impl std::fmt::Display) -> Self {
+        Self::Within {
+            place: place.to_string(),
+            error: Box::new(self),
+        }
+    }
 }
 
 fn did_you_mean(nearest: &Option<String>) -> String {
