@@ -55,6 +55,127 @@ pub enum Error {
         largest: f64,
     },
 
+    /// A number that should point at a node, cell or material of the body does not.
+    #[error("{place}: {what} {index} does not exist; expected less than {count}")]
+    UnknownIndex {
+        /// Where the number stands.
+        place: String,
+        /// What it should point at: `node`, `cell`, `material`.
+        what: &'static str,
+        /// The number.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+
+    /// A plane thing in a solid, or the other way round.
+    #[error("{place}: dimension {found} does not fit; expected {expected}")]
+    WrongDimension {
+        /// What does not fit.
+        place: String,
+        /// Dimension it must have.
+        expected: usize,
+        /// Dimension it has.
+        found: usize,
+    },
+
+    /// Something that must be named once is named again.
+    #[error("{place}: {what} {index:?} is listed twice")]
+    Repeated {
+        /// Where the list stands.
+        place: String,
+        /// What it lists: `cell`, `facet`.
+        what: &'static str,
+        /// Cell number, or node numbers of the facet.
+        index: Vec<usize>,
+    },
+
+    /// A support or load on nothing, or a mesh without cells.
+    #[error("{place}: empty; expected at least one entry")]
+    Empty {
+        /// Where the list stands.
+        place: String,
+    },
+
+    /// A cell that is inside out, folded or without volume.
+    #[error(
+        "{place} at ({:.6e}, {:.6e}, {:.6e}) m is inside out, folded or flat: signed volume \
+         {volume:e} m^{dimension}, smallest Jacobian {jacobian:e} of a well-shaped cell's 1; \
+         expected both positive (are its nodes in Gmsh's order?)",
+        centroid[0], centroid[1], centroid[2]
+    )]
+    BadCell {
+        /// Which cell, such as `block: cell 17`.
+        place: String,
+        /// Mean position of its nodes, in metre.
+        centroid: [f64; 3],
+        /// Signed volume, in m³ (2D: area in m²).
+        volume: f64,
+        /// Dimension of the body.
+        dimension: usize,
+        /// Least determinant of the normalised tangents over the cell, between −1 and 1.
+        jacobian: f64,
+    },
+
+    /// A node that no cell uses.
+    #[error(
+        "{place} at ({:.6e}, {:.6e}, {:.6e}) m belongs to no cell; expected at least one",
+        position[0], position[1], position[2]
+    )]
+    LoneNode {
+        /// Which node, such as `block: node 17`.
+        place: String,
+        /// Its position, in metre.
+        position: [f64; 3],
+    },
+
+    /// A facet that is not on the surface.
+    #[error(
+        "facet with nodes {nodes:?} belongs to {cells} cells; expected a facet of the surface, \
+         which belongs to exactly one"
+    )]
+    FacetOwners {
+        /// Its nodes.
+        nodes: Vec<usize>,
+        /// How many cells it belongs to.
+        cells: usize,
+    },
+
+    /// A surface facet whose nodes run so that its normal points into the body.
+    #[error("{place}: the nodes {nodes:?} run inward; expected outward order")]
+    FacetInward {
+        /// Where the facet stands.
+        place: String,
+        /// Its nodes.
+        nodes: Vec<usize>,
+    },
+
+    /// Two supports prescribe different displacements for one component.
+    #[error(
+        "{} prescribes {:e} m and {} prescribes {:e} m for component {component} of node {node}; \
+         expected one value",
+        places[0], values[0], places[1], values[1]
+    )]
+    ContradictorySupports {
+        /// The two supports.
+        places: [String; 2],
+        /// The node.
+        node: usize,
+        /// `x`, `y` or `z`.
+        component: char,
+        /// What each prescribes, in metre.
+        values: [f64; 2],
+    },
+
+    /// The supports leave a rigid motion free.
+    #[error("{body}: the supports leave a rigid motion free: {motion}; expected none")]
+    FreeMotion {
+        /// Name of the body.
+        body: String,
+        /// The motion in words.
+        motion: String,
+    },
+
     /// Something other than a number is not accepted where it stands.
     #[error("{place}: {found} is not accepted; expected {accepted}")]
     NotAccepted {

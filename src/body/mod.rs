@@ -8,10 +8,24 @@
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
 //! plane stress; every force below is for that depth.
 
+mod boundary;
+mod cell;
+mod dilatation;
+mod facet;
 pub mod gmsh;
+mod incidence;
+mod material;
 pub mod mesh;
+mod quadrature;
+mod sparsity;
+mod stiffness;
+mod structured;
 
+pub use facet::FacetGeometry;
+pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
+pub use stiffness::stiffness;
+pub use structured::{box_mesh, graded, rectangle};
 
 /// How strain and stress live in the body's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]

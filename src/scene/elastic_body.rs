@@ -82,8 +82,6 @@ impl SceneBody {
             supports,
             loads,
         };
-        body::check(&body)?;
-        body::prescribed(&body)?;
         Ok(body)
     }
 

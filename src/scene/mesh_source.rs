@@ -51,7 +51,7 @@ pub struct Rectangle {
     /// Number of cells along x and y.
     pub cells: [usize; 2],
     /// Length of the last cell over that of the first, along x and y.
-    #[serde(default = "uniform")]
+    #[serde(default = "uniform::<2>")]
     pub grading: [f64; 2],
     /// Kind of the cells.
     #[serde(default)]
@@ -72,7 +72,7 @@ pub struct BoxMesh {
     /// Number of cells along x, y and z.
     pub cells: [usize; 3],
     /// Length of the last cell over that of the first, along x, y and z.
-    #[serde(default = "uniform")]
+    #[serde(default = "uniform::<3>")]
     pub grading: [f64; 3],
     /// Kind of the cells.
     #[serde(default)]

@@ -1,0 +1,104 @@
+//! Prescribed displacements, component by component.
+
+use super::{Body, Support};
+use crate::error::Error;
+
+/// Prescribed displacement per unknown `dimension · node + axis`, in metre; `None` where free.
+///
+/// # Errors
+///
+/// [`Error::ContradictorySupports`] if two supports give one component different values
+/// (equal ones are fine), [`Error::UnknownIndex`] for a node that does not exist.
+pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
+    let (axes, nodes) = (body.mesh.dimension, body.mesh.nodes.len());
+    // Per unknown the number of the first support that holds it, to name it if another disagrees.
+    let mut holder: Vec<Option<usize>> = vec![None; axes * nodes];
+    let mut prescribed = vec![None; axes * nodes];
+    for (index, support) in body.supports.iter().enumerate() {
+        for &node in &support.nodes {
+            if node >= nodes {
+                return Err(Error::UnknownIndex {
+                    place: support.place.clone(),
+                    what: "node",
+                    index: node,
+                    count: nodes,
+                });
+            }
+            for (axis, value) in support.displacement.iter().enumerate().take(axes) {
+                let Some(value) = *value else { continue };
+                let unknown = axes * node + axis;
+                match (prescribed[unknown], holder[unknown]) {
+                    (Some(before), Some(first)) if before != value => {
+                        let places = [&body.supports[first], support];
+                        return Err(contradiction(places, node, axis, [before, value]));
+                    }
+                    (Some(_), _) => {}
+                    (None, _) => {
+                        prescribed[unknown] = Some(value);
+                        holder[unknown] = Some(index);
+                    }
+                }
+            }
+        }
+    }
+    Ok(prescribed)
+}
+
+fn contradiction(supports: [&Support; 2], node: usize, axis: usize, values: [f64; 2]) -> Error {
+    Error::ContradictorySupports {
+        places: supports.map(|support| support.place.clone()),
+        node,
+        component: ['x', 'y', 'z'][axis],
+        values,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::CellKind;
+    use crate::body::samples::block;
+
+    fn support(place: &str, nodes: &[usize], displacement: [Option<f64>; 3]) -> Support {
+        Support {
+            place: place.to_owned(),
+            nodes: nodes.to_vec(),
+            displacement,
+        }
+    }
+
+    #[test]
+    fn components_that_no_support_names_stay_free() {
+        let mut body = block(CellKind::Quad4);
+        body.supports = vec![
+            support("a", &[0, 1], [Some(0.5), None, None]),
+            support("b", &[1], [Some(0.5), Some(0.0), None]),
+        ];
+        let found = prescribed(&body);
+        let first = found.map(|all| all[..6].to_vec());
+        assert_eq!(first, Ok(vec![Some(0.5), None, Some(0.5), Some(0.0), None, None]));
+    }
+
+    #[test]
+    fn two_values_for_one_component_are_refused_with_both_places() {
+        let mut body = block(CellKind::Hex8);
+        body.supports = vec![
+            support("a", &[0, 1], [None, Some(0.5), None]),
+            support("b", &[1], [None, Some(0.25), None]),
+        ];
+        let expected = Error::ContradictorySupports {
+            places: ["a".to_owned(), "b".to_owned()],
+            node: 1,
+            component: 'y',
+            values: [0.5, 0.25],
+        };
+        assert_eq!(prescribed(&body), Err(expected));
+    }
+
+    #[test]
+    fn a_node_that_does_not_exist_is_refused() {
+        let mut body = block(CellKind::Tri3);
+        body.supports = vec![support("a", &[1000], [Some(0.0), None, None])];
+        assert!(matches!(prescribed(&body), Err(Error::UnknownIndex { index: 1000, .. })));
+    }
+}
