@@ -131,18 +131,20 @@ pub enum Error {
 
     /// A facet that is not on the surface.
     #[error(
-        "facet with nodes {nodes:?} belongs to {cells} cells; expected a facet of the surface, \
+        "{place}: the facet with nodes {nodes:?} belongs to {cells} cells; expected a facet of the surface, \
          which belongs to exactly one"
     )]
     FacetOwners {
+        /// Where the facet stands.
+        place: String,
         /// Its nodes.
         nodes: Vec<usize>,
         /// How many cells it belongs to.
         cells: usize,
     },
 
-    /// A surface facet whose nodes run so that its normal points into the body.
-    #[error("{place}: the nodes {nodes:?} run inward; expected outward order")]
+    /// A surface facet whose nodes run backwards or crosswise, so that its normal would be wrong.
+    #[error("{place}: the nodes {nodes:?} do not run around the facet in outward order")]
     FacetInward {
         /// Where the facet stands.
         place: String,

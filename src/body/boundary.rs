@@ -8,6 +8,55 @@ use crate::error::Error;
 /// Nodes of a facet in ascending order, the same for all its owners; free places stand last.
 type Key = [usize; 4];
 
+/// The cells that own given facets.
+pub(crate) struct Owners<'a> {
+    mesh: &'a Mesh,
+    /// Number of owners, and the last one's (cell, local facet).
+    sides: HashMap<Key, (usize, (usize, usize))>,
+}
+
+impl<'a> Owners<'a> {
+    /// Looks for the owners of all `facets` in one pass over the cells.
+    pub(crate) fn new<'b>(mesh: &'a Mesh, facets: impl Iterator<Item = &'b Facet>) -> Self {
+        let unowned = |facet: &Facet| (key(&facet.nodes), (0, (0, 0)));
+        let mut sides: HashMap<Key, _> = facets.map(unowned).collect();
+        if !sides.is_empty() {
+            for (index, cell) in mesh.cells().enumerate() {
+                for local in 0..cell.kind.facets().len() {
+                    if let Some((count, side)) = sides.get_mut(&key_of(cell, local)) {
+                        *count += 1;
+                        *side = (index, local);
+                    }
+                }
+            }
+        }
+        Self { mesh, sides }
+    }
+
+    /// One of the facets in outward order; `place` names it if it is not on the surface.
+    pub(crate) fn outward(
+        &self,
+        facet: &Facet,
+        place: impl Fn() -> String,
+    ) -> Result<Facet, Error> {
+        let cells = match self.sides.get(&key(&facet.nodes)) {
+            Some((1, (cell, local))) => {
+                let side = side_of(self.mesh.cell(*cell), *local);
+                if side.nodes.len() == facet.nodes.len() {
+                    return Ok(side);
+                }
+                0
+            }
+            found => found.map_or(0, |side| side.0),
+        };
+        Err(Error::FacetOwners {
+            place: place(),
+            nodes: facet.nodes.clone(),
+            cells,
+        })
+    }
+}
+
 impl Mesh {
     /// Facets that belong to exactly one cell, in outward order, cell by cell.
     #[must_use]
@@ -39,34 +88,13 @@ impl Mesh {
     /// [`Error::FacetOwners`] for a facet that is no facet of any cell, or that lies
     /// inside the body between two cells.
     pub fn orient(&self, facets: &[Facet]) -> Result<Vec<Facet>, Error> {
-        let mut owners: HashMap<Key, (usize, Option<Facet>)> = facets
-            .iter()
-            .map(|facet| (key(&facet.nodes), (0, None)))
-            .collect();
-        for cell in self.cells() {
-            for local in 0..cell.kind.facets().len() {
-                if let Some((count, side)) = owners.get_mut(&key_of(cell, local)) {
-                    *count += 1;
-                    *side = Some(side_of(cell, local));
-                }
-            }
-        }
+        let owners = Owners::new(self, facets.iter());
         let mut listed = HashSet::new();
         let mut oriented = Vec::with_capacity(facets.len());
-        for facet in facets {
-            let key = key(&facet.nodes);
-            match owners.get(&key) {
-                Some((1, Some(side))) if side.nodes.len() == facet.nodes.len() => {
-                    if listed.insert(key) {
-                        oriented.push(side.clone());
-                    }
-                }
-                found => {
-                    return Err(Error::FacetOwners {
-                        nodes: facet.nodes.clone(),
-                        cells: found.map_or(0, |owner| owner.0),
-                    });
-                }
+        for (index, facet) in facets.iter().enumerate() {
+            let side = owners.outward(facet, || format!("facets[{index}]"))?;
+            if listed.insert(key(&facet.nodes)) {
+                oriented.push(side);
             }
         }
         Ok(oriented)
@@ -186,6 +214,7 @@ mod tests {
         let mesh = rectangle(&UNEVEN, &UNEVEN, CellKind::Quad4).unwrap();
         let found = mesh.orient(&[Facet { nodes: vec![5, 6] }]);
         let expected = Error::FacetOwners {
+            place: "facets[0]".to_owned(),
             nodes: vec![5, 6],
             cells: 2,
         };

@@ -20,8 +20,9 @@
 
 use nalgebra::Vector3;
 
+use super::cell::MOST_NODES;
 use super::incidence::Incidence;
-use super::quadrature::{positions, rule};
+use super::quadrature::{Mapped, mapped};
 use super::{Body, CellKind, Material, Model};
 
 /// Poisson's ratio from which volume change is averaged.
@@ -49,6 +50,18 @@ impl Dilatation {
             Self::NodeMean
         }
     }
+}
+
+/// Volume of a cell and `ḡ_a = (1/V) ∫ ∇N_a dV` (B4).
+pub(crate) fn mean_gradients(points: &[Mapped]) -> (f64, [Vector3<f64>; MOST_NODES]) {
+    let volume: f64 = points.iter().map(|point| point.volume).sum();
+    let mut mean = [Vector3::zeros(); MOST_NODES];
+    for point in points {
+        for (sum, gradient) in mean.iter_mut().zip(&point.gradients) {
+            *sum += gradient * (point.volume / volume);
+        }
+    }
+    (volume, mean)
 }
 
 /// The cells of one material around one node, whose dilatation is averaged (B5).
@@ -107,10 +120,10 @@ impl Patches {
             let mut patch_volume = 0.0;
             for &member in around.of(centre) {
                 let cell = mesh.cell(cells[member]);
-                let mapped = rule(cell.kind)[0].map(cell.kind, &positions(mesh, cell.nodes));
-                let share = mapped.volume / cell.nodes.len() as f64;
+                let [point, ..] = mapped(mesh, cell);
+                let share = point.volume / cell.nodes.len() as f64;
                 patch_volume += share;
-                for (&node, gradient) in cell.nodes.iter().zip(&mapped.gradients) {
+                for (&node, gradient) in cell.nodes.iter().zip(&point.gradients) {
                     if place[node] == usize::MAX {
                         place[node] = self.nodes.len();
                         self.nodes.push(node);
@@ -147,5 +160,147 @@ impl Patches {
     /// Number of the patch of a material around a node.
     pub(crate) fn find(&self, material: usize, centre: usize) -> Option<usize> {
         self.keys.binary_search(&[material, centre]).ok()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::samples::{body, facets, solve};
+    use crate::body::{Load, Mesh, Support, box_mesh, graded, load_vector, rectangle, stiffness};
+
+    fn cook(kind: CellKind, n: usize, poisson: f64, plain: bool) -> (f64, Body, Vec<f64>) {
+        let c = graded(0.0, 1.0, n, 1.0).unwrap();
+        let mut mesh = rectangle(&c, &c, kind).unwrap();
+        for p in &mut mesh.nodes {
+            let [s, t, _] = *p;
+            let lo = 44.0 * s;
+            let hi = 44.0 + 16.0 * s;
+            *p = [48.0 * s, lo + (hi - lo) * t, 0.0];
+        }
+        let mut body = body(mesh, Model::PlaneStrain, poisson);
+        body.materials[0].young = 250.0;
+        if plain {
+            body.materials[0] = Material {
+                young: 250.0 / (1.0 - poisson * poisson),
+                poisson: poisson / (1.0 - poisson),
+            };
+            body.model = Model::PlaneStress { thickness: 1.0 };
+        }
+        let nodes = facets(&body.mesh, "left")
+            .iter()
+            .flat_map(|f| f.nodes.clone())
+            .collect();
+        body.supports = vec![Support {
+            place: "l".into(),
+            nodes,
+            displacement: [Some(0.0), Some(0.0), None],
+        }];
+        let f = facets(&body.mesh, "right");
+        body.loads = vec![Load::Traction {
+            facets: f,
+            traction: [0.0, 100.0 / 16.0, 0.0],
+        }];
+        let u = solve(&body);
+        let last = body.mesh.nodes.len() - 1;
+        (u[2 * last + 1], body, u)
+    }
+
+    fn cylinder(kind: CellKind, n: usize, poisson: f64, plain: bool) -> (f64, Body, Vec<f64>) {
+        let r = graded(1.0, 2.0, n, 1.0).unwrap();
+        let t = graded(0.0, std::f64::consts::FRAC_PI_2, n, 1.0).unwrap();
+        let z = graded(0.0, 0.2, 1, 1.0).unwrap();
+        let solid = kind.dimension() == 3;
+        let mut mesh = if solid {
+            box_mesh(&r, &t, &z, kind).unwrap()
+        } else {
+            rectangle(&r, &t, kind).unwrap()
+        };
+        for p in &mut mesh.nodes {
+            let [r, t, z] = *p;
+            *p = [r * t.cos(), r * t.sin(), z];
+        }
+        let mut body = body(
+            mesh,
+            if solid {
+                Model::Solid
+            } else {
+                Model::PlaneStrain
+            },
+            poisson,
+        );
+        if plain {
+            body.materials[0] = Material {
+                young: 10.0 / (1.0 - poisson * poisson),
+                poisson: poisson / (1.0 - poisson),
+            };
+            body.model = Model::PlaneStress { thickness: 1.0 };
+        }
+        let mut hold = |name: &str, axis: usize| {
+            let nodes = facets(&body.mesh, name)
+                .iter()
+                .flat_map(|f| f.nodes.clone())
+                .collect();
+            let mut displacement = [None; 3];
+            displacement[axis] = Some(0.0);
+            body.supports.push(Support {
+                place: name.into(),
+                nodes,
+                displacement,
+            });
+        };
+        if solid {
+            hold("front", 1);
+            hold("back", 0);
+            hold("bottom", 2);
+            hold("top", 2);
+        } else {
+            hold("bottom", 1);
+            hold("top", 0);
+        }
+        let f = facets(&body.mesh, "left");
+        body.loads = vec![Load::Pressure {
+            facets: f,
+            pressure: 1.0,
+        }];
+        let u = solve(&body);
+        (u[0], body, u)
+    }
+
+    #[test]
+    fn explore() {
+        for kind in CellKind::ALL {
+            for poisson in [0.3, 0.4999, 0.499999] {
+                let exact = (1.0 + poisson) / (10.0 * 3.0) * ((1.0 - 2.0 * poisson) + 4.0);
+                for n in [4, 8, 16] {
+                    if n == 16 && kind.dimension() == 3 {
+                        continue;
+                    }
+                    let a = cylinder(kind, n, poisson, false).0 / exact;
+                    let b = if kind.dimension() == 2 {
+                        cylinder(kind, n, poisson, true).0 / exact
+                    } else {
+                        0.0
+                    };
+                    eprintln!("cyl {kind:?} {poisson} {n}: {a:.5} plain {b:.5}");
+                }
+            }
+        }
+        for kind in [CellKind::Tri3, CellKind::Quad4] {
+            for poisson in [0.3, 0.4999, 0.499999] {
+                for n in [4, 8, 16, 32] {
+                    let (a, body, u) = cook(kind, n, poisson, false);
+                    let b = cook(kind, n, poisson, true).0;
+                    let s = crate::body::cell_stress(&body, &u);
+                    let p: Vec<f64> = s.iter().map(|s| (s[0] + s[1] + s[2]) / 3.0).collect();
+                    let lo = p.iter().fold(1e9_f64, |m, x| m.min(*x));
+                    let hi = p.iter().fold(-1e9_f64, |m, x| m.max(*x));
+                    eprintln!(
+                        "cook {kind:?} {poisson} {n}: {a:.5} plain {b:.5} pressure {lo:.3} {hi:.3}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -7,7 +7,7 @@
 //! A plane-stress body is as deep as its thickness, which multiplies the integrals;
 //! forces at nodes are taken as they are.
 
-use super::quadrature::{positions, rule};
+use super::quadrature::{mapped, rule};
 use super::{Body, Facet, Load};
 
 /// Nodal forces, in newton (plane strain: per metre of depth), entry `dimension · node + axis`.
@@ -61,11 +61,10 @@ impl NodalForces<'_> {
         let depth = self.body.model.depth();
         for cell in cells {
             let cell = self.body.mesh.cell(*cell);
-            let positions = positions(&self.body.mesh, cell.nodes);
-            for point in rule(cell.kind) {
-                let volume = point.map(cell.kind, &positions[..cell.nodes.len()]).volume;
-                for (node, shape) in cell.nodes.iter().zip(point.shape) {
-                    self.add(*node, density, shape * volume * depth);
+            let points = mapped(&self.body.mesh, cell);
+            for (point, reference) in points.iter().zip(rule(cell.kind)) {
+                for (node, shape) in cell.nodes.iter().zip(reference.shape) {
+                    self.add(*node, density, shape * point.volume * depth);
                 }
             }
         }
@@ -108,7 +107,10 @@ mod tests {
         for kind in CellKind::ALL {
             let mut body = block(kind);
             let facets = facets(&body.mesh, "top");
-            body.loads = vec![Load::Pressure { facets, pressure: 3.0 }];
+            body.loads = vec![Load::Pressure {
+                facets,
+                pressure: 3.0,
+            }];
             let mut expected = [0.0; 3];
             expected[body.mesh.dimension - 1] = -6.0;
             assert_close(resultant(&body), expected);
@@ -124,7 +126,10 @@ mod tests {
         for kind in CellKind::ALL {
             let mut body = block(kind);
             let facets = body.mesh.boundary_facets();
-            body.loads = vec![Load::Pressure { facets, pressure: 3.0 }];
+            body.loads = vec![Load::Pressure {
+                facets,
+                pressure: 3.0,
+            }];
             assert_close(resultant(&body), [0.0; 3]);
         }
     }
@@ -136,9 +141,18 @@ mod tests {
             let mut body = block(kind);
             let (facets, cells) = (facets(&body.mesh, "right"), 0..body.mesh.cell_count());
             body.loads = vec![
-                Load::Traction { facets, traction: [1.0, 2.0, 4.0] },
-                Load::BodyForce { cells: cells.collect(), density: [10.0, 20.0, 40.0] },
-                Load::PointForce { node: 2, force: [1.0; 3] },
+                Load::Traction {
+                    facets,
+                    traction: [1.0, 2.0, 4.0],
+                },
+                Load::BodyForce {
+                    cells: cells.collect(),
+                    density: [10.0, 20.0, 40.0],
+                },
+                Load::PointForce {
+                    node: 2,
+                    force: [1.0; 3],
+                },
             ];
             let mut expected = [22.0, 43.0, 85.0];
             if kind.dimension() == 2 {
@@ -154,9 +168,18 @@ mod tests {
         body.model = Model::PlaneStress { thickness: 0.5 };
         let (facets, cells) = (facets(&body.mesh, "right"), 0..body.mesh.cell_count());
         body.loads = vec![
-            Load::Traction { facets, traction: [1.0, 2.0, 0.0] },
-            Load::BodyForce { cells: cells.collect(), density: [10.0, 20.0, 0.0] },
-            Load::PointForce { node: 2, force: [1.0, 1.0, 0.0] },
+            Load::Traction {
+                facets,
+                traction: [1.0, 2.0, 0.0],
+            },
+            Load::BodyForce {
+                cells: cells.collect(),
+                density: [10.0, 20.0, 0.0],
+            },
+            Load::PointForce {
+                node: 2,
+                force: [1.0, 1.0, 0.0],
+            },
         ];
         assert_close(resultant(&body), [11.5, 22.0, 0.0]);
     }

@@ -10,22 +10,34 @@
 
 mod boundary;
 mod cell;
+mod check;
 mod dilatation;
 mod facet;
 pub mod gmsh;
 mod incidence;
+mod load;
 mod material;
 pub mod mesh;
 mod quadrature;
+mod rigid;
+#[cfg(test)]
+mod samples;
 mod sparsity;
 mod stiffness;
+mod stress;
 mod structured;
+mod support;
 
+pub use check::check;
 pub use facet::FacetGeometry;
+pub use load::load_vector;
 pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
+pub use rigid::{RigidMotion, free_motion};
 pub use stiffness::stiffness;
+pub use stress::{cell_stress, nodal_stress, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
+pub use support::prescribed;
 
 /// How strain and stress live in the body's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]

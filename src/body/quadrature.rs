@@ -14,7 +14,7 @@ use std::sync::LazyLock;
 use nalgebra::Vector3;
 
 use super::cell::MOST_NODES;
-use super::{CellKind, Mesh};
+use super::{Cell, CellKind, Mesh};
 
 /// A quadrature point of the reference cell.
 #[derive(Clone, Copy, Debug)]
@@ -107,6 +107,16 @@ fn gauss(kind: CellKind) -> Vec<Point> {
     corners
         .map(|corner| Point::at(kind, corner.map(|x| x * scale), 1.0))
         .collect()
+}
+
+/// A cell's quadrature points in space; those past the end of its [`rule`] are zero.
+pub(crate) fn mapped(mesh: &Mesh, cell: Cell<'_>) -> [Mapped; MOST_NODES] {
+    let positions = positions(mesh, cell.nodes);
+    let mut points = [Mapped::default(); MOST_NODES];
+    for (mapped, point) in points.iter_mut().zip(rule(cell.kind)) {
+        *mapped = point.map(cell.kind, &positions[..cell.nodes.len()]);
+    }
+    points
 }
 
 /// Positions of a cell's nodes, in metre; entries past the last node are zero.

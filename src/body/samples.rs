@@ -6,7 +6,10 @@ use super::{Body, CellKind, Facet, Group, Material, Mesh, Model, box_mesh, grade
 
 /// A block of 2 × 1 (× 1) m with 4 × 2 (× 2) uneven cells, `E = 10 Pa`, `ν = 0.3`.
 pub(crate) fn block(kind: CellKind) -> Body {
-    let (xs, ys) = (graded(0.0, 2.0, 4, 2.0).unwrap(), graded(0.0, 1.0, 2, 1.5).unwrap());
+    let (xs, ys) = (
+        graded(0.0, 2.0, 4, 2.0).unwrap(),
+        graded(0.0, 1.0, 2, 1.5).unwrap(),
+    );
     let (mesh, model) = if kind.dimension() == 2 {
         (rectangle(&xs, &ys, kind).unwrap(), Model::PlaneStrain)
     } else {
@@ -22,7 +25,10 @@ pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
         material_of_cell: vec![0; mesh.cell_count()],
         mesh,
         model,
-        materials: vec![Material { young: 10.0, poisson }],
+        materials: vec![Material {
+            young: 10.0,
+            poisson,
+        }],
         supports: Vec::new(),
         loads: Vec::new(),
     }
@@ -58,7 +64,9 @@ pub(crate) fn solve(body: &Body) -> Vec<f64> {
     let stiffness = super::stiffness(body);
     let force = super::load_vector(body);
     let prescribed = super::prescribed(body).unwrap();
-    let free: Vec<usize> = (0..force.len()).filter(|i| prescribed[*i].is_none()).collect();
+    let free: Vec<usize> = (0..force.len())
+        .filter(|i| prescribed[*i].is_none())
+        .collect();
     let mut place = vec![usize::MAX; force.len()];
     for (at, unknown) in free.iter().enumerate() {
         place[*unknown] = at;

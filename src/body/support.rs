@@ -76,7 +76,10 @@ mod tests {
         ];
         let found = prescribed(&body);
         let first = found.map(|all| all[..6].to_vec());
-        assert_eq!(first, Ok(vec![Some(0.5), None, Some(0.5), Some(0.0), None, None]));
+        assert_eq!(
+            first,
+            Ok(vec![Some(0.5), None, Some(0.5), Some(0.0), None, None])
+        );
     }
 
     #[test]
@@ -99,6 +102,9 @@ mod tests {
     fn a_node_that_does_not_exist_is_refused() {
         let mut body = block(CellKind::Tri3);
         body.supports = vec![support("a", &[1000], [Some(0.0), None, None])];
-        assert!(matches!(prescribed(&body), Err(Error::UnknownIndex { index: 1000, .. })));
+        assert!(matches!(
+            prescribed(&body),
+            Err(Error::UnknownIndex { index: 1000, .. })
+        ));
     }
 }
