@@ -39,19 +39,6 @@ pub enum Error {
         found: usize,
     },
 
-    /// A JSON text that does not hold what it should.
-    #[error("{file}, line {line}, column {column}: {reason}")]
-    Json {
-        /// Name of the file.
-        file: String,
-        /// Line, from one.
-        line: usize,
-        /// Column, from one.
-        column: usize,
-        /// What is wrong and what is accepted.
-        reason: String,
-    },
-
     /// A vector that cannot serve as the direction it is meant for.
     #[error("{place}: {value:?} is not accepted; expected {accepted}")]
     Direction {
@@ -337,6 +324,126 @@ pub enum Error {
         /// What the system says.
         reason: String,
     },
+
+    /// Something other than a number is not accepted where it stands.
+    #[error("{place}: {found} is not accepted; expected {accepted}")]
+    NotAccepted {
+        /// Where it stands, such as `contacts[0].obstacle`.
+        place: String,
+        /// What stands there.
+        found: String,
+        /// What is accepted, in words.
+        accepted: String,
+    },
+
+    /// A name that nothing carries.
+    #[error(
+        "{place}: there is no {what} `{name}`{}; expected {}",
+        did_you_mean(nearest),
+        listed(known)
+    )]
+    UnknownName {
+        /// Where the name stands, such as `contacts[0].group`.
+        place: String,
+        /// What the name should stand for, such as `group`.
+        what: &'static str,
+        /// The name.
+        name: String,
+        /// The known name that is spelt most alike.
+        nearest: Option<String>,
+        /// All known names.
+        known: Vec<String>,
+    },
+
+    /// No single node stands at a given position.
+    #[error(
+        "{place}: no node at {position:?}; the nearest is node {node} at {found:?}, {distance:e} \
+         away; expected at most {tolerance:e}"
+    )]
+    NoNodeAt {
+        /// Where the position stands, such as `bodies[0].supports[1].at`.
+        place: String,
+        /// The position, in metre.
+        position: [f64; 3],
+        /// The nearest node.
+        node: usize,
+        /// Its position, in metre.
+        found: [f64; 3],
+        /// Its distance, in metre.
+        distance: f64,
+        /// Largest distance accepted, in metre.
+        tolerance: f64,
+    },
+
+    /// A scene's text is not JSON, or not a scene.
+    #[error("{file}:{line}:{column}: {place}: {reason}")]
+    Json {
+        /// File name.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1.
+        column: usize,
+        /// Path inside the file, such as `bodies[0].materials[1].poisson`.
+        place: String,
+        /// What is wrong and what is accepted.
+        reason: String,
+    },
+
+    /// A mesh file cannot be read as a mesh.
+    #[error("{file}:{line}: {reason}")]
+    Mesh {
+        /// File name.
+        file: String,
+        /// Line, from 1.
+        line: usize,
+        /// What is wrong and what is accepted.
+        reason: String,
+    },
+
+    /// A file cannot be read.
+    #[error("{place}: cannot read the file {file}: {reason}")]
+    Unreadable {
+        /// What the file should hold, such as `scene` or `bodies[0].mesh.file`.
+        place: String,
+        /// File name.
+        file: String,
+        /// The system's reason.
+        reason: String,
+    },
+
+    /// Any other variant, with the larger place that it happened in.
+    #[error("{place}: {error}")]
+    Within {
+        /// Such as the scene's file, or the group of a load.
+        place: String,
+        /// What is wrong there.
+        error: Box<Error>,
+    },
+}
+
+impl Error {
+    /// Puts a larger place in front.
+    pub(crate) fn within(self, place: impl std::fmt::Display) -> Self {
+        Self::Within {
+            place: place.to_string(),
+            error: Box::new(self),
+        }
+    }
+}
+
+fn did_you_mean(nearest: &Option<String>) -> String {
+    nearest
+        .as_ref()
+        .map(|name| format!(" (did you mean `{name}`?)"))
+        .unwrap_or_default()
+}
+
+fn listed(known: &[String]) -> String {
+    if known.is_empty() {
+        return "none, as there are none".to_owned();
+    }
+    format!("one of `{}`", known.join("`, `"))
 }
 
 /// Refuses NaN and infinities, naming the first entry that holds one.

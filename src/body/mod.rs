@@ -13,6 +13,7 @@ mod cell;
 mod check;
 mod dilatation;
 mod facet;
+pub mod gmsh;
 mod incidence;
 mod load;
 mod material;

@@ -8,6 +8,7 @@
 use faer::Mat;
 use serde::Deserialize;
 
+use super::json;
 use crate::condensation::{ContactProblem, Operator};
 use crate::error::{Error, check_length};
 
@@ -48,12 +49,7 @@ impl BareProblem {
     ///
     /// Text that is no such problem, with line and column.
     pub fn from_json(text: &str, name: &str) -> Result<Self, Error> {
-        serde_json::from_str(text).map_err(|cause| Error::Json {
-            file: name.to_owned(),
-            line: cause.line(),
-            column: cause.column(),
-            reason: cause.to_string(),
-        })
+        json::parse(text, name)
     }
 
     /// The problem in our signs.

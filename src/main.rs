@@ -1,0 +1,197 @@
+//! The command line: solve, check, schema.
+
+use std::error::Error;
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use dpana::Status;
+use dpana::scene::{self, Scene};
+
+/// Certified frictional contact of elastic bodies.
+///
+/// Exit status: 0 certified (or the scene is sound), 1 solved but not certified, 2 bad input.
+#[derive(Parser)]
+#[command(version)]
+struct CommandLine {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Solve a scene and print a summary.
+    Solve(Solve),
+    /// Read a scene and its meshes and say what is wrong, without solving.
+    Check {
+        /// Scene in JSON.
+        scene: PathBuf,
+    },
+    /// Print the JSON Schema of scenes.
+    Schema,
+}
+
+#[derive(Args)]
+struct Solve {
+    /// Scene in JSON.
+    scene: PathBuf,
+    /// Write the whole report to this file, in JSON.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Write displacement and stress to this file for ParaView, and the contact surface
+    /// beside it (`FILE_contact.vtu`).
+    #[arg(long, value_name = "FILE")]
+    vtu: Option<PathBuf>,
+}
+
+fn main() -> ExitCode {
+    let done = match CommandLine::parse().command {
+        Command::Solve(arguments) => solve(&arguments),
+        Command::Check { scene } => check(&scene),
+        Command::Schema => schema(),
+    };
+    done.unwrap_or_else(|error| {
+        // With standard error closed there is nobody left to tell.
+        let _ = writeln!(io::stderr(), "error: {error}");
+        ExitCode::from(2)
+    })
+}
+
+fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
+    for (option, output) in [("--report", &arguments.report), ("--vtu", &arguments.vtu)] {
+        if let Some(output) = output {
+            check_output(option, output, &arguments.scene)?;
+        }
+    }
+    if arguments.report.is_some() && arguments.report == arguments.vtu {
+        return Err("--report, --vtu: the same file; expected two".into());
+    }
+    let scene = Scene::from_file(&arguments.scene)?;
+    let solution = stand_in::solve(&scene)?;
+    let report = solution.report();
+    if let Some(path) = &arguments.report {
+        write_whole(path, &report.to_json())
+            .map_err(|error| format!("--report {}: {error}", path.display()))?;
+    }
+    if let Some(path) = &arguments.vtu {
+        solution.write_vtu(path)?;
+    }
+    writeln!(io::stdout(), "{}", report.summary().trim_end())?;
+    Ok(match solution.status() {
+        Status::Certified => ExitCode::SUCCESS,
+        Status::NotConverged | Status::NoEquilibrium => ExitCode::from(1),
+    })
+}
+
+fn check(path: &Path) -> Result<ExitCode, Box<dyn Error>> {
+    let scene = Scene::from_file(path)?;
+    let mechanics = scene.mechanics()?;
+    let mut out = io::stdout().lock();
+    for body in &mechanics.bodies {
+        writeln!(
+            out,
+            "body `{}`: {}D, {} nodes, {} cells, {} materials, {} supports, {} loads",
+            body.name,
+            body.mesh.dimension,
+            body.mesh.nodes.len(),
+            body.mesh.cell_count(),
+            body.materials.len(),
+            body.supports.len(),
+            body.loads.len(),
+        )?;
+    }
+    for (contact, stated) in mechanics.contacts.iter().zip(&scene.contacts) {
+        writeln!(
+            out,
+            "contact `{}`: {} facets, friction {}",
+            stated.group,
+            contact.facets.len(),
+            contact.friction,
+        )?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn schema() -> Result<ExitCode, Box<dyn Error>> {
+    writeln!(io::stdout(), "{:#}", scene::schema())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Refuses an output file that could not be written, before any time goes into the solve.
+fn check_output(option: &str, output: &Path, scene: &Path) -> Result<(), String> {
+    let refuse = |reason: &str| Err(format!("{option} {}: {reason}", output.display()));
+    if output.is_dir() || output.file_name().is_none() {
+        return refuse("is a folder; expected a file name");
+    }
+    if !folder(output).is_dir() {
+        return refuse("its folder does not exist; expected an existing folder");
+    }
+    let same = |path: &Path| fs::canonicalize(path).ok();
+    if same(output).is_some_and(|output| Some(output) == same(scene)) {
+        return refuse("would overwrite the scene; expected another file");
+    }
+    Ok(())
+}
+
+/// Folder of a file; a bare name lies in the working folder.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// Writes beside the file and renames, so that the old file stays whole until the new one is.
+fn write_whole(path: &Path, text: &str) -> io::Result<()> {
+    // A pipe or a device holds nothing to keep whole, and must not be renamed over.
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return fs::write(path, text);
+    }
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let beside = folder(path).join(format!(".{name}.{}", std::process::id()));
+    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, path));
+    if written.is_err() {
+        // The first error is the one to report.
+        let _ = fs::remove_file(&beside);
+    }
+    written
+}
+
+/// The seam to the pipeline, which joins here as `dpana::solve`.
+mod stand_in {
+    use std::path::Path;
+
+    use dpana::scene::Scene;
+    use dpana::{Error, Status};
+
+    pub(crate) struct Solution;
+    pub(crate) struct Report;
+
+    pub(crate) fn solve(scene: &Scene) -> Result<Solution, Error> {
+        scene.mechanics()?;
+        Ok(Solution)
+    }
+
+    impl Solution {
+        pub(crate) fn status(&self) -> Status {
+            Status::NotConverged
+        }
+        pub(crate) fn report(&self) -> Report {
+            Report
+        }
+        pub(crate) fn write_vtu(&self, _path: &Path) -> Result<(), Error> {
+            Ok(())
+        }
+    }
+
+    impl Report {
+        pub(crate) fn to_json(&self) -> String {
+            "{}\n".to_owned()
+        }
+        pub(crate) fn summary(&self) -> String {
+            "not solved".to_owned()
+        }
+    }
+}

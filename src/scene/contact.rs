@@ -1,0 +1,168 @@
+//! Contacts: a part of a body's surface, the rigid obstacle it may touch, and friction.
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::selection::{self, norm, vector};
+use super::spelling;
+use crate::body::Body;
+use crate::condensation::{ContactPair, Obstacle};
+use crate::error::Error;
+
+/// A part of a body's surface that may touch a rigid obstacle.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a contact")]
+pub struct SceneContact {
+    /// Group of surface facets; it need only contain the true contact.
+    pub group: String,
+    /// Name of the body; may be left out while there is only one.
+    pub body: Option<String>,
+    /// What the surface may touch.
+    pub obstacle: SceneObstacle,
+    /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
+    pub friction: f64,
+}
+
+/// A rigid body that does not move; vectors have one entry per axis.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum SceneObstacle {
+    /// Half-space behind a plane (a line in 2D).
+    Plane {
+        /// A point of the plane, in metre.
+        point: Vec<f64>,
+        /// Direction out of the obstacle, towards the body; any length but zero.
+        normal: Vec<f64>,
+    },
+    /// Circle, in 2D.
+    Circle {
+        /// Centre, in metre.
+        center: Vec<f64>,
+        /// Radius `> 0`, in metre.
+        radius: f64,
+    },
+    /// Infinite circular cylinder, in 3D.
+    Cylinder {
+        /// A point of the axis, in metre.
+        center: Vec<f64>,
+        /// Direction of the axis; any length but zero.
+        axis: Vec<f64>,
+        /// Radius `> 0`, in metre.
+        radius: f64,
+    },
+    /// Sphere, in 3D.
+    Sphere {
+        /// Centre, in metre.
+        center: Vec<f64>,
+        /// Radius `> 0`, in metre.
+        radius: f64,
+    },
+}
+
+impl SceneContact {
+    /// The contact in the terms of mechanics.
+    pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
+        let body = self.body(place, bodies)?;
+        if !(self.friction >= 0.0 && self.friction.is_finite()) {
+            return Err(Error::OutOfRange {
+                place: format!("{place}.friction"),
+                value: self.friction,
+                accepted: "0 <= friction < infinity",
+            });
+        }
+        let obstacle = format!("{place}.obstacle");
+        Ok(ContactPair {
+            place: place.to_owned(),
+            obstacle: self.obstacle.resolve(&obstacle, body.mesh.dimension)?,
+            facets: selection::facets(&body.mesh, &format!("{place}.group"), &self.group)?,
+            friction: self.friction,
+        })
+    }
+
+    fn body<'a>(&self, place: &str, bodies: &'a [Body]) -> Result<&'a Body, Error> {
+        let named = bodies
+            .iter()
+            .find(|body| self.body.as_ref().is_none_or(|name| *name == body.name));
+        named.ok_or_else(|| {
+            let name = self.body.clone().unwrap_or_default();
+            let known = bodies.iter().map(|body| body.name.as_str());
+            Error::UnknownName {
+                place: format!("{place}.body"),
+                what: "body",
+                nearest: spelling::nearest(&name, known.clone()).map(str::to_owned),
+                name,
+                known: known.map(str::to_owned).collect(),
+            }
+        })
+    }
+}
+
+impl SceneObstacle {
+    fn resolve(&self, place: &str, dimension: usize) -> Result<Obstacle, Error> {
+        let (kind, lives_in) = match self {
+            Self::Plane { .. } => ("plane", dimension),
+            Self::Circle { .. } => ("circle", 2),
+            Self::Cylinder { .. } => ("cylinder", 3),
+            Self::Sphere { .. } => ("sphere", 3),
+        };
+        if lives_in != dimension {
+            return Err(Error::NotAccepted {
+                place: place.to_owned(),
+                found: format!("a {kind}"),
+                accepted: match dimension {
+                    2 => "plane or circle for a body in 2D".to_owned(),
+                    _ => "plane, cylinder or sphere for a body in 3D".to_owned(),
+                },
+            });
+        }
+        let at = |field: &str| format!("{place}.{kind}.{field}");
+        let point = |field, values: &[f64]| vector(&at(field), values, dimension);
+        Ok(match self {
+            Self::Plane { point: on, normal } => Obstacle::Plane {
+                point: point("point", on)?,
+                normal: direction(&at("normal"), normal, dimension)?,
+            },
+            Self::Circle { center, radius } => Obstacle::Cylinder {
+                center: point("center", center)?,
+                axis: [0.0, 0.0, 1.0],
+                radius: positive(at("radius"), *radius)?,
+            },
+            Self::Cylinder {
+                center,
+                axis,
+                radius,
+            } => Obstacle::Cylinder {
+                center: point("center", center)?,
+                axis: direction(&at("axis"), axis, dimension)?,
+                radius: positive(at("radius"), *radius)?,
+            },
+            Self::Sphere { center, radius } => Obstacle::Sphere {
+                center: point("center", center)?,
+                radius: positive(at("radius"), *radius)?,
+            },
+        })
+    }
+}
+
+fn positive(place: String, radius: f64) -> Result<f64, Error> {
+    if radius > 0.0 && radius.is_finite() {
+        return Ok(radius);
+    }
+    Err(Error::OutOfRange {
+        place,
+        value: radius,
+        accepted: "0 < radius < infinity",
+    })
+}
+
+fn direction(place: &str, values: &[f64], dimension: usize) -> Result<[f64; 3], Error> {
+    let direction = vector(place, values, dimension)?;
+    if norm(direction) > 0.0 {
+        return Ok(direction);
+    }
+    Err(Error::NotAccepted {
+        place: place.to_owned(),
+        found: format!("{values:?}"),
+        accepted: "a direction of any length but zero".to_owned(),
+    })
+}

@@ -1,0 +1,161 @@
+//! An elastic body: mesh, model, materials, supports and loads.
+
+use std::path::Path;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+use super::{MeshSource, SceneLoad, SceneSupport, selection};
+use crate::body::{self, Body, Material, Mesh, Model};
+use crate::error::Error;
+
+/// An elastic body.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a body")]
+pub struct SceneBody {
+    /// Name for messages and reports.
+    #[serde(default = "unnamed")]
+    pub name: String,
+    /// Where its mesh comes from.
+    pub mesh: MeshSource,
+    /// Plane strain or plane stress, required in 2D; solid when left out in 3D.
+    pub model: Option<SceneModel>,
+    /// Its materials; together they cover every cell once.
+    pub materials: Vec<SceneMaterial>,
+    /// Where its displacement is given.
+    #[serde(default)]
+    pub supports: Vec<SceneSupport>,
+    /// Given forces.
+    #[serde(default)]
+    pub loads: Vec<SceneLoad>,
+}
+
+fn unnamed() -> String {
+    "body".to_owned()
+}
+
+/// How strain and stress live in the body's dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum SceneModel {
+    /// 2D, no strain out of the plane, 1 m deep.
+    PlaneStrain,
+    /// 2D, no stress out of the plane.
+    PlaneStress {
+        /// Depth of the plate, `> 0`, in metre.
+        thickness: f64,
+    },
+    /// 3D.
+    Solid,
+}
+
+/// An isotropic linear elastic material.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with young and poisson")]
+pub struct SceneMaterial {
+    /// Group of cells; all cells when left out, which only a single material may do.
+    pub group: Option<String>,
+    /// Young's modulus `E > 0`, in pascal.
+    pub young: f64,
+    /// Poisson's ratio, `-1 < ν < 0.5`.
+    pub poisson: f64,
+}
+
+impl SceneBody {
+    /// The body in the terms of mechanics; mesh files are relative to `folder`.
+    pub(super) fn resolve(&self, place: &str, folder: &Path) -> Result<Body, Error> {
+        let mesh = self.mesh.mesh(&format!("{place}.mesh"), folder)?;
+        let model = self.resolve_model(place, mesh.dimension)?;
+        let (materials, material_of_cell) = self.resolve_materials(place, &mesh)?;
+        let supports = (self.supports.iter().enumerate())
+            .map(|(at, support)| support.resolve(format!("{place}.supports[{at}]"), &mesh))
+            .collect::<Result<_, _>>()?;
+        let loads = (self.loads.iter().enumerate())
+            .map(|(at, load)| load.resolve(&format!("{place}.loads[{at}]"), &mesh))
+            .collect::<Result<_, _>>()?;
+        let body = Body {
+            name: self.name.clone(),
+            mesh,
+            model,
+            materials,
+            material_of_cell,
+            supports,
+            loads,
+        };
+        Ok(body)
+    }
+
+    fn resolve_model(&self, place: &str, dimension: usize) -> Result<Model, Error> {
+        let place = format!("{place}.model");
+        let (found, accepted) = match (self.model, dimension) {
+            (Some(SceneModel::PlaneStrain), 2) => return Ok(Model::PlaneStrain),
+            (Some(SceneModel::PlaneStress { thickness }), 2) => {
+                let model = Model::PlaneStress { thickness };
+                model.validate(&format!("{place}.plane_stress"))?;
+                return Ok(model);
+            }
+            (None | Some(SceneModel::Solid), 3) => return Ok(Model::Solid),
+            (None, _) => ("nothing", "plane_strain or plane_stress for a mesh in 2D"),
+            (Some(SceneModel::Solid), _) => {
+                ("solid", "plane_strain or plane_stress for a mesh in 2D")
+            }
+            (Some(_), _) => ("a plane model", "solid for a mesh in 3D"),
+        };
+        Err(Error::NotAccepted {
+            place,
+            found: found.to_owned(),
+            accepted: accepted.to_owned(),
+        })
+    }
+
+    /// The materials and the one of each cell.
+    fn resolve_materials(
+        &self,
+        place: &str,
+        mesh: &Mesh,
+    ) -> Result<(Vec<Material>, Vec<usize>), Error> {
+        const NONE: usize = usize::MAX;
+        let mut of_cell = vec![NONE; mesh.cell_count()];
+        let mut materials = Vec::new();
+        for (number, stated) in self.materials.iter().enumerate() {
+            let place = format!("{place}.materials[{number}]");
+            let material = Material {
+                young: stated.young,
+                poisson: stated.poisson,
+            };
+            material.validate(&place)?;
+            materials.push(material);
+            let Some(group) = &stated.group else {
+                if self.materials.len() == 1 {
+                    of_cell.fill(number);
+                    break;
+                }
+                return Err(Error::NotAccepted {
+                    place,
+                    found: "no group".to_owned(),
+                    accepted: "a group of cells, as there are several materials".to_owned(),
+                });
+            };
+            let place = format!("{place}.group");
+            for &cell in selection::cells(mesh, &place, group)? {
+                selection::check_cell(mesh, &place, cell)?;
+                if of_cell[cell] != NONE {
+                    return Err(Error::NotAccepted {
+                        place,
+                        found: format!("cell {cell}, which has materials[{}]", of_cell[cell]),
+                        accepted: "one material per cell".to_owned(),
+                    });
+                }
+                of_cell[cell] = number;
+            }
+        }
+        match of_cell.iter().position(|&number| number == NONE) {
+            None => Ok((materials, of_cell)),
+            Some(cell) => Err(Error::NotAccepted {
+                place: format!("{place}.materials"),
+                found: format!("no material for cell {cell}"),
+                accepted: "one material per cell".to_owned(),
+            }),
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! Where a body's mesh comes from: a file, a generator, or the calling code.
+
+use std::path::{Path, PathBuf};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, de};
+
+use super::read;
+use crate::body::{CellKind, Mesh, box_mesh, gmsh, graded, rectangle};
+use crate::error::Error;
+
+/// Most nodes of a generated mesh: beyond it a slip of the pen would fill the memory.
+const MOST_NODES: usize = 20_000_000;
+
+/// Where a body's mesh comes from.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(untagged, deny_unknown_fields)]
+pub enum MeshSource {
+    /// A Gmsh file.
+    File {
+        /// MSH 2.2 or 4.1 ASCII, relative to the scene's folder.
+        file: PathBuf,
+        /// Factor on all positions, such as 0.001 for a mesh in mm; 1 when left out.
+        #[schemars(default = "one")]
+        scale: f64,
+    },
+    /// A rectangle of quadrilaterals or triangles.
+    Rectangle {
+        /// Its extent and cells.
+        rectangle: Rectangle,
+    },
+    /// A box of hexahedra or tetrahedra.
+    Box {
+        /// Its extent and cells.
+        #[schemars(rename = "box")]
+        solid: BoxMesh,
+    },
+    /// A mesh that the calling code built.
+    #[schemars(skip)]
+    Given(Mesh),
+}
+
+/// A rectangle. Groups: `left`, `right`, `bottom`, `top`, and `body` for all cells.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with x, y and cells")]
+pub struct Rectangle {
+    /// Smallest and largest x, in metre.
+    pub x: [f64; 2],
+    /// Smallest and largest y, in metre.
+    pub y: [f64; 2],
+    /// Number of cells along x and y.
+    pub cells: [usize; 2],
+    /// Length of the last cell over that of the first, along x and y.
+    #[serde(default = "uniform::<2>")]
+    pub grading: [f64; 2],
+    /// Kind of the cells.
+    #[serde(default)]
+    pub cell: PlaneCell,
+}
+
+/// A box. Groups: `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z), and `body`
+/// for all cells.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object with x, y, z and cells")]
+pub struct BoxMesh {
+    /// Smallest and largest x, in metre.
+    pub x: [f64; 2],
+    /// Smallest and largest y, in metre.
+    pub y: [f64; 2],
+    /// Smallest and largest z, in metre.
+    pub z: [f64; 2],
+    /// Number of cells along x, y and z.
+    pub cells: [usize; 3],
+    /// Length of the last cell over that of the first, along x, y and z.
+    #[serde(default = "uniform::<3>")]
+    pub grading: [f64; 3],
+    /// Kind of the cells.
+    #[serde(default)]
+    pub cell: SolidCell,
+}
+
+/// Cells of a rectangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum PlaneCell {
+    /// Bilinear quadrilaterals.
+    #[default]
+    Quad4,
+    /// Triangles of constant strain.
+    Tri3,
+}
+
+/// Cells of a box.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SolidCell {
+    /// Trilinear hexahedra.
+    #[default]
+    Hex8,
+    /// Tetrahedra of constant strain.
+    Tet4,
+}
+
+fn one() -> f64 {
+    1.0
+}
+
+fn uniform<const AXES: usize>() -> [f64; AXES] {
+    [1.0; AXES]
+}
+
+/// The keys of a mesh in JSON; which of them stand there tells the source.
+#[derive(Deserialize)]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with file, rectangle or box"
+)]
+struct Keys {
+    file: Option<PathBuf>,
+    scale: Option<f64>,
+    rectangle: Option<Rectangle>,
+    r#box: Option<BoxMesh>,
+}
+
+impl<'de> Deserialize<'de> for MeshSource {
+    fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
+        let keys = Keys::deserialize(source)?;
+        match (keys.file, keys.scale, keys.rectangle, keys.r#box) {
+            (Some(file), scale, None, None) => Ok(Self::File {
+                file,
+                scale: scale.unwrap_or(one()),
+            }),
+            (None, None, Some(rectangle), None) => Ok(Self::Rectangle { rectangle }),
+            (None, None, None, Some(solid)) => Ok(Self::Box { solid }),
+            _ => Err(de::Error::custom(
+                "expected exactly one of `file` (with or without `scale`), `rectangle` and `box`",
+            )),
+        }
+    }
+}
+
+impl MeshSource {
+    /// Reads, generates or copies the mesh; files are relative to `folder`.
+    pub(super) fn mesh(&self, place: &str, folder: &Path) -> Result<Mesh, Error> {
+        match self {
+            Self::File { file, scale } => from_file(place, &folder.join(file), *scale),
+            Self::Rectangle { rectangle: shape } => {
+                let place = format!("{place}.rectangle");
+                let kind = match shape.cell {
+                    PlaneCell::Quad4 => CellKind::Quad4,
+                    PlaneCell::Tri3 => CellKind::Tri3,
+                };
+                let axes = [("x", shape.x), ("y", shape.y)];
+                let [xs, ys] = coordinates(&place, axes, shape.cells, shape.grading)?;
+                rectangle(&xs, &ys, kind).map_err(|error| error.within(place))
+            }
+            Self::Box { solid: shape } => {
+                let place = format!("{place}.box");
+                let kind = match shape.cell {
+                    SolidCell::Hex8 => CellKind::Hex8,
+                    SolidCell::Tet4 => CellKind::Tet4,
+                };
+                let axes = [("x", shape.x), ("y", shape.y), ("z", shape.z)];
+                let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading)?;
+                box_mesh(&xs, &ys, &zs, kind).map_err(|error| error.within(place))
+            }
+            Self::Given(mesh) => Ok(mesh.clone()),
+        }
+    }
+}
+
+fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {
+    if !(scale > 0.0 && scale.is_finite()) {
+        return Err(Error::OutOfRange {
+            place: format!("{place}.scale"),
+            value: scale,
+            accepted: "0 < scale < infinity",
+        });
+    }
+    let place = format!("{place}.file");
+    let bytes = read(&place, path)?;
+    let mut mesh = gmsh::parse_bytes(&bytes, &path.display().to_string())
+        .map_err(|error| error.within(place))?;
+    for position in &mut mesh.nodes {
+        *position = position.map(|coordinate| coordinate * scale);
+    }
+    Ok(mesh)
+}
+
+/// Positions of the grid lines along each axis.
+fn coordinates<const AXES: usize>(
+    place: &str,
+    axes: [(&str, [f64; 2]); AXES],
+    cells: [usize; AXES],
+    grading: [f64; AXES],
+) -> Result<[Vec<f64>; AXES], Error> {
+    let nodes = cells.iter().try_fold(1_usize, |nodes, &count| {
+        nodes.checked_mul(count.checked_add(1)?)
+    });
+    if nodes.is_none_or(|nodes| nodes > MOST_NODES) {
+        return Err(Error::NotAccepted {
+            place: format!("{place}.cells"),
+            found: format!("{cells:?}"),
+            accepted: format!("at most {MOST_NODES} nodes in all"),
+        });
+    }
+    let mut lines = std::array::from_fn(|_| Vec::new());
+    for (at, (axis, [start, end])) in axes.into_iter().enumerate() {
+        if !(start < end) {
+            return Err(Error::NotAccepted {
+                place: format!("{place}.{axis}"),
+                found: format!("[{start}, {end}]"),
+                accepted: "the smaller number first".to_owned(),
+            });
+        }
+        lines[at] = graded(start, end, cells[at], grading[at])
+            .map_err(|error| error.within(format_args!("{place}, axis {axis}")))?;
+    }
+    Ok(lines)
+}

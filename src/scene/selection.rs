@@ -1,0 +1,160 @@
+//! From the names and positions of a scene to nodes, facets and cells of the mesh.
+
+use super::spelling;
+use crate::body::{Facet, Group, Mesh};
+use crate::error::{Error, check_finite, check_length};
+
+/// Farthest that a node may lie from the position that selects it, relative to the mesh's size.
+const AT_NODE: f64 = 1e-6;
+
+/// The group of this name, which must not be empty.
+pub(super) fn group<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a Group, Error> {
+    let Some(group) = mesh.groups.get(name) else {
+        let known = mesh.groups.keys();
+        return Err(Error::UnknownName {
+            place: place.to_owned(),
+            what: "group",
+            name: name.to_owned(),
+            nearest: spelling::nearest(name, known.clone().map(String::as_str)).map(str::to_owned),
+            known: known.cloned().collect(),
+        });
+    };
+    let empty = match group {
+        Group::Cells(members) => members.is_empty(),
+        Group::Facets(members) => members.is_empty(),
+        Group::Edges(members) => members.is_empty(),
+        Group::Points(members) => members.is_empty(),
+    };
+    if empty {
+        return Err(Error::Empty {
+            place: format!("{place}: group `{name}`"),
+        });
+    }
+    Ok(group)
+}
+
+fn wrong_kind(mesh: &Mesh, place: &str, name: &str, group: &Group, accepted: &str) -> Error {
+    let found = match group {
+        Group::Cells(_) => "cells",
+        Group::Facets(_) if mesh.dimension == 2 => "surface facets (lines)",
+        Group::Facets(_) => "surface facets",
+        Group::Edges(_) => "edges (lines in 3D)",
+        Group::Points(_) => "points",
+    };
+    Error::NotAccepted {
+        place: place.to_owned(),
+        found: format!("group `{name}` of {found}"),
+        accepted: format!("a group of {accepted}"),
+    }
+}
+
+/// Cells of a group.
+pub(super) fn cells<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a [usize], Error> {
+    match group(mesh, place, name)? {
+        Group::Cells(cells) => Ok(cells),
+        other => Err(wrong_kind(mesh, place, name, other, "cells")),
+    }
+}
+
+/// Facets of a group, running outward.
+pub(super) fn facets(mesh: &Mesh, place: &str, name: &str) -> Result<Vec<Facet>, Error> {
+    match group(mesh, place, name)? {
+        Group::Facets(facets) => mesh
+            .orient(facets)
+            .map_err(|error| error.within(format_args!("{place}: group `{name}`"))),
+        other => Err(wrong_kind(mesh, place, name, other, "surface facets")),
+    }
+}
+
+/// Nodes of a group of any kind, each once, in increasing order.
+pub(super) fn nodes(mesh: &Mesh, place: &str, name: &str) -> Result<Vec<usize>, Error> {
+    let mut nodes: Vec<usize> = match group(mesh, place, name)? {
+        Group::Cells(cells) => {
+            let mut nodes = Vec::new();
+            for &cell in cells {
+                check_cell(mesh, place, cell)?;
+                nodes.extend_from_slice(mesh.cell(cell).nodes);
+            }
+            nodes
+        }
+        Group::Facets(facets) => facets
+            .iter()
+            .flat_map(|facet| facet.nodes.clone())
+            .collect(),
+        Group::Edges(edges) => edges.iter().flatten().copied().collect(),
+        Group::Points(points) => points.clone(),
+    };
+    nodes.sort_unstable();
+    nodes.dedup();
+    Ok(nodes)
+}
+
+/// Refuses the number of a cell that the mesh does not hold.
+pub(super) fn check_cell(mesh: &Mesh, place: &str, cell: usize) -> Result<(), Error> {
+    if cell < mesh.cell_count() {
+        return Ok(());
+    }
+    Err(Error::UnknownIndex {
+        place: place.to_owned(),
+        what: "cell",
+        index: cell,
+        count: mesh.cell_count(),
+    })
+}
+
+/// The one node at a position.
+pub(super) fn node_at(mesh: &Mesh, place: &str, position: &[f64]) -> Result<usize, Error> {
+    let position = vector(place, position, mesh.dimension)?;
+    let distance = |node: &[f64; 3]| norm([0, 1, 2].map(|axis| node[axis] - position[axis]));
+    let tolerance = AT_NODE * size(mesh);
+    let distances = mesh.nodes.iter().map(distance).enumerate();
+    let nearest = distances.clone().min_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((node, nearest)) = nearest else {
+        return Err(Error::Empty {
+            place: format!("{place}: nodes of the mesh"),
+        });
+    };
+    // Written so that a distance that is not a number is refused too.
+    if !(nearest <= tolerance) {
+        return Err(Error::NoNodeAt {
+            place: place.to_owned(),
+            position,
+            node,
+            found: mesh.nodes[node],
+            distance: nearest,
+            tolerance,
+        });
+    }
+    let here = distances.filter(|&(_, distance)| distance <= tolerance);
+    let here: Vec<usize> = here.map(|(node, _)| node).collect();
+    if here.len() > 1 {
+        return Err(Error::NotAccepted {
+            place: place.to_owned(),
+            found: format!("position {position:?} of nodes {here:?}"),
+            accepted: "the position of a single node".to_owned(),
+        });
+    }
+    Ok(node)
+}
+
+/// Diagonal of the box around all nodes, in metre.
+fn size(mesh: &Mesh) -> f64 {
+    norm([0, 1, 2].map(|axis| {
+        let along = mesh.nodes.iter().map(|node| node[axis]);
+        along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
+    }))
+}
+
+/// Length of a vector, safe from overflow.
+pub(super) fn norm([x, y, z]: [f64; 3]) -> f64 {
+    x.hypot(y).hypot(z)
+}
+
+/// A finite vector of the body's dimension; the third component is 0 in 2D.
+pub(super) fn vector(place: &str, values: &[f64], dimension: usize) -> Result<[f64; 3], Error> {
+    check_length(place, dimension, values.len())?;
+    check_finite(place, values)?;
+    let mut vector = [0.0; 3];
+    vector[..dimension].copy_from_slice(values);
+    Ok(vector)
+}

@@ -1,0 +1,100 @@
+//! Supports: nodes whose displacement is given, component by component.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Deserializer, de};
+
+use super::selection;
+use crate::body::{Mesh, Support};
+use crate::error::{Error, check_length};
+
+/// Nodes whose displacement is given; `null` leaves a component free.
+#[derive(Clone, Debug, PartialEq, JsonSchema)]
+#[schemars(untagged, deny_unknown_fields)]
+pub enum SceneSupport {
+    /// All nodes of a group.
+    Group {
+        /// Group of cells, facets, edges or points.
+        group: String,
+        /// One entry per axis, in metre; `null` leaves the component free.
+        displacement: Vec<Option<f64>>,
+    },
+    /// One node.
+    At {
+        /// Position of the node, in metre.
+        at: Vec<f64>,
+        /// One entry per axis, in metre; `null` leaves the component free.
+        displacement: Vec<Option<f64>>,
+    },
+}
+
+/// The keys of a support in JSON.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a support")]
+struct Keys {
+    group: Option<String>,
+    at: Option<Vec<f64>>,
+    displacement: Vec<Option<f64>>,
+}
+
+impl<'de> Deserialize<'de> for SceneSupport {
+    fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
+        let keys = Keys::deserialize(source)?;
+        let displacement = keys.displacement;
+        match (keys.group, keys.at) {
+            (Some(group), None) => Ok(Self::Group {
+                group,
+                displacement,
+            }),
+            (None, Some(at)) => Ok(Self::At { at, displacement }),
+            _ => Err(de::Error::custom(
+                "expected exactly one of `group` and `at`, beside `displacement`",
+            )),
+        }
+    }
+}
+
+impl SceneSupport {
+    /// The support in the terms of mechanics.
+    pub(super) fn resolve(&self, place: String, mesh: &Mesh) -> Result<Support, Error> {
+        let (nodes, stated) = match self {
+            Self::Group {
+                group,
+                displacement,
+            } => {
+                let place = format!("{place}.group");
+                (selection::nodes(mesh, &place, group)?, displacement)
+            }
+            Self::At { at, displacement } => {
+                let place = format!("{place}.at");
+                (vec![selection::node_at(mesh, &place, at)?], displacement)
+            }
+        };
+        let at = format!("{place}.displacement");
+        check_length(&at, mesh.dimension, stated.len())?;
+        let mut displacement = [None; 3];
+        displacement[..stated.len()].copy_from_slice(stated);
+        for (axis, component) in displacement.iter().enumerate() {
+            match component {
+                Some(value) if !value.is_finite() => {
+                    return Err(Error::NotFinite {
+                        place: format!("{at}[{axis}]"),
+                        value: *value,
+                    });
+                }
+                _ => {}
+            }
+        }
+        if displacement.iter().all(Option::is_none) {
+            return Err(Error::NotAccepted {
+                place: at,
+                found: "null in every component".to_owned(),
+                accepted: "at least one number".to_owned(),
+            });
+        }
+        Ok(Support {
+            place,
+            nodes,
+            displacement,
+        })
+    }
+}
