@@ -9,37 +9,10 @@
 //! The certificate of (L1)–(L3) speaks of the condensed problem; that the body holds
 //! the same displacements at its contact nodes is measured here as well.
 
-use sprs::CsMat;
-
+use super::body_state::BodyState;
 use super::certificate::Worst;
-use super::natural_map::largest;
-use super::resultant::{self, Defect, Resultant, total_length};
-use crate::body::Body;
-use crate::condensation::{ContactNode, ContactProblem, ContactSurface};
-use crate::error::{Error, check_length};
-
-/// A body with everything that acts on it; unknown `node · dimension + axis`.
-#[derive(Clone, Copy, Debug)]
-pub struct BodyState<'a> {
-    /// Mesh and supports.
-    pub body: &'a Body,
-    /// K, both triangles, in N/m.
-    pub stiffness: &'a CsMat<f64>,
-    /// f per unknown, in newton.
-    pub load: &'a [f64],
-    /// Given displacement per unknown, in metre; `None` where free.
-    pub prescribed: &'a [Option<f64>],
-    /// Contact nodes and frames.
-    pub surface: &'a ContactSurface,
-    /// The condensed problem on that surface.
-    pub problem: &'a ContactProblem,
-    /// Contact reaction per contact unknown, in newton.
-    pub reaction: &'a [f64],
-    /// Displacement per contact unknown as the judge computed it, in metre.
-    pub contact_displacement: &'a [f64],
-    /// Recovered displacement per unknown of the body, in metre.
-    pub displacement: &'a [f64],
-}
+use super::resultant::{Defect, Resultant, length, nodal_lengths};
+use crate::error::Error;
 
 /// A residual with the node where it is worst.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,151 +55,45 @@ pub struct Balance {
 /// [`Error::Length`] if arrays do not belong together, [`Error::OutOfRange`] if a
 /// contact stands at a node that the mesh does not have.
 pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
-    check(state)?;
-    let contact = nodal_contact_forces(state);
-    let support = support_reactions(state, &contact);
-    let held: Vec<f64> = keep(&support, |k| state.prescribed[k].is_some());
-    let loose: Vec<f64> = keep(&support, |k| state.prescribed[k].is_none());
+    state.check()?;
+    let contact = state.contact_forces();
+    let support = state.support_reactions(&contact);
+    let held = keep(&support, |k| state.prescribed[k].is_some());
+    let loose = keep(&support, |k| state.prescribed[k].is_none());
 
-    let (nodes, dimension) = (&state.body.mesh.nodes, state.body.mesh.dimension);
-    let force = largest(state.load)
-        .max(largest(&contact))
-        .max(largest(&held));
-    let length = largest(state.displacement);
+    let (nodes, dimension) = (&state.body.mesh.nodes, state.dimension());
     let parts = [state.load, &contact, &held];
-    let [loads, on_contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
-    let total: f64 = parts.iter().map(|part| total_length(part, dimension)).sum();
-    let reach = nodes
-        .iter()
-        .map(|&x| resultant::length(x))
-        .fold(0.0, f64::max);
+    let [loads, contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
+    let sizes = || parts.iter().flat_map(|part| nodal_lengths(part, dimension));
+    let (force, total) = (sizes().fold(0.0, f64::max), sizes().sum::<f64>());
+    let motion = nodal_lengths(state.displacement, dimension).fold(0.0, f64::max);
+    let reach = nodes.iter().map(|&x| length(x)).fold(0.0, f64::max);
+    let (forces, moments) = (
+        [loads.force, contact.force, supports.force],
+        [loads.moment, contact.moment, supports.moment],
+    );
     Ok(Balance {
         equilibrium: worst_node(&loose, force, dimension),
-        support: worst_node(&support_departure(state), length, dimension),
-        surface: surface_departure(state).over(length),
+        support: worst_node(&state.support_departure(), motion, dimension),
+        surface: state.surface_departure().over(motion),
         loads,
-        contact: on_contact,
+        contact,
         supports,
-        force_defect: Defect::of([loads.force, on_contact.force, supports.force], total),
-        moment_defect: Defect::of(
-            [loads.moment, on_contact.moment, supports.moment],
-            total * reach,
-        ),
+        force_defect: Defect::of(forces, total),
+        moment_defect: Defect::of(moments, total * reach),
     })
-}
-
-/// Force of one contact on the body in global axes, in newton, from its block of the reaction.
-#[must_use]
-pub fn global_force(contact: &ContactNode, block: &[f64]) -> [f64; 3] {
-    let mut force = [0.0; 3];
-    for (direction, t) in contact.frame.iter().zip(block) {
-        for axis in 0..3 {
-            force[axis] += t * direction[axis];
-        }
-    }
-    force
-}
-
-fn check(state: &BodyState<'_>) -> Result<(), Error> {
-    let nodes = state.body.mesh.nodes.len();
-    let (size, unknowns) = (nodes * state.body.mesh.dimension, state.problem.unknowns());
-    check_length("stiffness rows", size, state.stiffness.rows())?;
-    check_length("stiffness columns", size, state.stiffness.cols())?;
-    check_length("load", size, state.load.len())?;
-    check_length("prescribed", size, state.prescribed.len())?;
-    check_length("displacement", size, state.displacement.len())?;
-    check_length(
-        "contact nodes",
-        state.problem.contacts(),
-        state.surface.nodes.len(),
-    )?;
-    check_length("reaction", unknowns, state.reaction.len())?;
-    check_length(
-        "contact_displacement",
-        unknowns,
-        state.contact_displacement.len(),
-    )?;
-    match state
-        .surface
-        .nodes
-        .iter()
-        .position(|contact| contact.node >= nodes)
-    {
-        None => Ok(()),
-        Some(contact) => Err(Error::OutOfRange {
-            place: format!("contact nodes[{contact}]"),
-            value: state.surface.nodes[contact].node as f64,
-            accepted: "a node of the mesh",
-        }),
-    }
-}
-
-/// c of (K4), per unknown of the body.
-fn nodal_contact_forces(state: &BodyState<'_>) -> Vec<f64> {
-    let dimension = state.body.mesh.dimension;
-    let mut forces = vec![0.0; state.load.len()];
-    for (contact, ends) in state
-        .surface
-        .nodes
-        .iter()
-        .zip(state.problem.offsets().windows(2))
-    {
-        let force = global_force(contact, &state.reaction[ends[0]..ends[1]]);
-        for axis in 0..dimension {
-            forces[contact.node * dimension + axis] += force[axis];
-        }
-    }
-    forces
-}
-
-/// s = K u − f − c of (K4), per unknown of the body.
-fn support_reactions(state: &BodyState<'_>, contact: &[f64]) -> Vec<f64> {
-    let u = state.displacement;
-    let rows = state.stiffness.outer_iterator();
-    rows.zip(state.load.iter().zip(contact))
-        .map(|(row, (f, c))| row.iter().map(|(k, entry)| entry * u[k]).sum::<f64>() - f - c)
-        .collect()
-}
-
-fn support_departure(state: &BodyState<'_>) -> Vec<f64> {
-    let pairs = state.prescribed.iter().zip(state.displacement);
-    pairs
-        .map(|(given, u)| given.map_or(0.0, |given| u - given))
-        .collect()
-}
-
-fn surface_departure(state: &BodyState<'_>) -> Worst {
-    let dimension = state.body.mesh.dimension;
-    let mut worst = Worst::default();
-    for (i, contact) in state.surface.nodes.iter().enumerate() {
-        let u = &state.displacement[contact.node * dimension..][..dimension];
-        let (start, end) = (state.problem.offsets()[i], state.problem.offsets()[i + 1]);
-        for (direction, condensed) in contact
-            .frame
-            .iter()
-            .zip(&state.contact_displacement[start..end])
-        {
-            let along: f64 = direction.iter().zip(u).map(|(d, u)| d * u).sum();
-            worst.raise((along - condensed).abs(), i);
-        }
-    }
-    worst
 }
 
 fn worst_node(values: &[f64], scale: f64, dimension: usize) -> WorstNode {
     let mut worst = Worst::default();
-    for (unknown, value) in values.iter().enumerate() {
-        worst.raise(value.abs(), unknown);
+    for (node, value) in nodal_lengths(values, dimension).enumerate() {
+        worst.raise(value, node);
     }
-    let Worst {
-        value,
-        scaled,
-        contact: unknown,
-    } = worst.over(scale);
+    let worst = worst.over(scale);
     WorstNode {
-        value,
-        scaled,
-        node: unknown / dimension.max(1),
+        value: worst.value,
+        scaled: worst.scaled,
+        node: worst.contact,
     }
 }
 
@@ -241,11 +108,11 @@ fn keep(values: &[f64], kept: impl Fn(usize) -> bool) -> Vec<f64> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use faer::mat;
-    use sprs::TriMat;
+    use sprs::{CsMat, TriMat};
 
     use super::*;
-    use crate::body::{Mesh, Model};
-    use crate::condensation::Operator;
+    use crate::body::{Body, Mesh, Model};
+    use crate::condensation::{ContactNode, ContactProblem, ContactSurface, Operator};
 
     /// A spring of 4 N/m from a held node (3, 1) down to a contact node (3, 0), which a
     /// load of 10 N pushes 0.5 m down onto a plane: the spring takes 2 N, the plane 8 N.

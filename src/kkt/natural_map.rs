@@ -80,6 +80,12 @@ pub(super) fn norm(values: &[f64]) -> f64 {
     largest * squares.sum::<f64>().sqrt()
 }
 
+/// Largest `‖v_i‖` over the contacts' blocks, which the choice of tangents does not change.
+pub(super) fn largest_block(offsets: &[usize], values: &[f64]) -> f64 {
+    let blocks = offsets.windows(2).map(|ends| &values[ends[0]..ends[1]]);
+    blocks.map(norm).fold(0.0, f64::max)
+}
+
 /// `‖v‖_∞`; infinite if an entry is NaN, which `max` would hide.
 pub(super) fn largest(values: &[f64]) -> f64 {
     if values.iter().any(|v| v.is_nan()) {

@@ -51,9 +51,9 @@ impl Defect {
     }
 }
 
-/// `Σ ‖F‖` over the nodes, in newton.
-pub(super) fn total_length(forces: &[f64], dimension: usize) -> f64 {
-    nodal(forces, dimension).map(length).sum()
+/// `‖v‖` node by node, from `dimension` entries per node.
+pub(super) fn nodal_lengths(values: &[f64], dimension: usize) -> impl Iterator<Item = f64> + '_ {
+    nodal(values, dimension).map(length)
 }
 
 /// Length of a vector.
@@ -61,9 +61,9 @@ pub(super) fn length([x, y, z]: [f64; 3]) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// The forces node by node, padded with zeros to three axes.
-fn nodal(forces: &[f64], dimension: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
-    let blocks = forces.chunks_exact(dimension.max(1));
+/// The vectors node by node, padded with zeros to three axes.
+fn nodal(values: &[f64], dimension: usize) -> impl Iterator<Item = [f64; 3]> + '_ {
+    let blocks = values.chunks_exact(dimension.max(1));
     blocks.map(|block| [0, 1, 2].map(|axis| block.get(axis).copied().unwrap_or(0.0)))
 }
 
@@ -97,7 +97,8 @@ mod tests {
     }
 
     #[test]
-    fn lengths_add_up_over_nodes() {
-        assert_eq!(total_length(&[3.0, 4.0, 0.0, -5.0], 2), 10.0);
+    fn lengths_are_taken_node_by_node() {
+        let found: Vec<f64> = nodal_lengths(&[3.0, 4.0, 0.0, -5.0], 2).collect();
+        assert_eq!(found, [5.0, 5.0]);
     }
 }

@@ -14,7 +14,7 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, get_global_parallelism};
 
-use super::natural_map::{Step, largest, norm};
+use super::natural_map::{Step, largest, largest_block, norm};
 use crate::condensation::ContactProblem;
 
 /// Smallest reaction that residuals are relative to, as a part of the load force. With
@@ -28,9 +28,9 @@ pub(super) struct Scales {
     pub(super) steps: Vec<Step>,
     /// `‖f‖₂` times the floor, in newton.
     pub(super) force_norm: f64,
-    /// `‖f‖_∞` times the floor, in newton.
+    /// Largest `‖f_i‖` of a contact times the floor, in newton.
     pub(super) force: f64,
-    /// `‖w‖_∞`, in metre.
+    /// Largest `‖w_i‖` of a contact, in metre.
     pub(super) length: f64,
 }
 
@@ -42,8 +42,8 @@ impl Scales {
         Self {
             steps,
             force_norm: FLOOR * norm(&load),
-            force: FLOOR * largest(&load),
-            length: largest(&undone),
+            force: FLOOR * largest_block(problem.offsets(), &load),
+            length: largest_block(problem.offsets(), &undone),
         }
     }
 }

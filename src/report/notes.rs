@@ -11,7 +11,7 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
     let mut notes = parts.notes.to_vec();
     if !parts.surface.left_out.is_empty() {
         notes.push(format!(
-            "{}: a support holds the normal displacement, so they are no contacts",
+            "{}: no contact here, a support holds the normal displacement",
             named(&parts.surface.left_out)
         ));
     }
@@ -26,8 +26,8 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
         .collect();
     if !at_rim.is_empty() {
         notes.push(format!(
-            "{}: contact reaches the rim of the assumed contact surface; the true contact \
-             may go on beyond it, enlarge the surface",
+            "{}: contact reaches the rim of the assumed contact surface; enlarge \
+             it, the true contact may go on beyond",
             named(&at_rim)
         ));
     }

@@ -24,12 +24,12 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         Status::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
         Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the body",
     };
-    let (size, residual) = (&report.size, report.certificate.natural_map);
+    let (extent, residual) = (&report.size, size(report.certificate.natural_map));
     writeln!(text, "{}", report.title)?;
     writeln!(text, "status          {status}")?;
     writeln!(
         text,
-        "residual        {residual:.1e} (natural map, relative to the reaction)"
+        "residual        {residual} (natural map, relative to the reaction)"
     )?;
     let units = report
         .units
@@ -39,7 +39,7 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(
         text,
         "size            {}D, {} nodes, {} cells",
-        size.dimension, size.nodes, size.cells
+        extent.dimension, extent.nodes, extent.cells
     )
 }
 
@@ -66,12 +66,12 @@ fn totals(text: &mut String, report: &Report) -> std::fmt::Result {
 
 fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
     let (laws, balance) = (&report.certificate, &report.certificate.balance);
-    writeln!(text, "worst violation     size   scaled")?;
+    writeln!(text, "worst violation         size    scaled")?;
     for (name, worst) in [
         ("penetration", laws.penetration),
         ("tension", laws.tension),
-        ("complement.", laws.complementarity),
-        ("disc excess", laws.disc_excess),
+        ("complementarity", laws.complementarity),
+        ("friction bound", laws.disc_excess),
         ("dissipation", laws.dissipation_defect),
     ] {
         let place = format!("contact {}", worst.contact);
@@ -87,7 +87,7 @@ fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
     )?;
     let (force, moment) = (balance.force_defect, balance.moment_defect);
     violation(text, "sum of forces", force.value, force.scaled, "")?;
-    violation(text, "of moments", moment.value, moment.scaled, "")
+    violation(text, "sum of moments", moment.value, moment.scaled, "")
 }
 
 /// One line of the table; the place only says something where there is a violation.
@@ -99,7 +99,8 @@ fn violation(
     place: &str,
 ) -> std::fmt::Result {
     let place = if value == 0.0 { "" } else { place };
-    let line = format!("  {name:<13} {value:>8.1e} {scaled:>8.1e}  {place}");
+    let (value, scaled) = (size(value), size(scaled));
+    let line = format!("  {name:<16} {value:>9} {scaled:>9}  {place}");
     writeln!(text, "{}", line.trim_end())
 }
 
@@ -135,6 +136,15 @@ fn vector(components: &[f64]) -> String {
     }
 }
 
+/// Two digits: the size of what should be zero.
+fn size(value: f64) -> String {
+    if value == 0.0 {
+        "0".into()
+    } else {
+        format!("{value:.1e}")
+    }
+}
+
 /// Six digits, in powers of ten only where plain digits would be long.
 fn number(value: f64) -> String {
     let size = value.abs();
@@ -159,7 +169,7 @@ mod tests {
             "0",
             "0.0400000",
             "12.5000",
-            "-99999",
+            "-99999.4",
             "1.40536e6",
             "3.20000e-9",
         ];

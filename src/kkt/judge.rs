@@ -1,0 +1,245 @@
+//! The judge of a contact problem: every law, for one reaction after the other.
+
+use super::bipotential::bipotential_gap;
+use super::certificate::{Certificate, ContactStatus, Verdict, Worst, ratio};
+use super::coulomb::coulomb_residual;
+use super::natural_map::{largest, largest_block, norm};
+use super::scales::{Scales, compliance_product, dot};
+use super::signorini::signorini_residual;
+use super::state::{ContactState, contact_states};
+use crate::condensation::ContactProblem;
+
+/// The judge of one problem; scales are computed once.
+#[derive(Clone, Debug)]
+pub struct Judge<'a> {
+    problem: &'a ContactProblem,
+    scales: Scales,
+}
+
+impl<'a> Judge<'a> {
+    /// A judge for `problem`.
+    #[must_use]
+    pub fn new(problem: &'a ContactProblem) -> Self {
+        let scales = Scales::new(problem);
+        Self { problem, scales }
+    }
+
+    /// Measures every law for a reaction, in newton per unknown.
+    ///
+    /// A reaction that is not finite, or not of the problem's length, is no state of this
+    /// problem: displacement and residuals are then infinite, never small.
+    #[must_use]
+    pub fn measure(&self, reaction: &[f64]) -> Verdict {
+        if reaction.len() != self.problem.unknowns() || largest(reaction).is_infinite() {
+            return self.no_state();
+        }
+        let response = compliance_product(self.problem.compliance(), reaction);
+        let free = self.problem.free_displacement();
+        let displacement: Vec<f64> = free.iter().zip(&response).map(|(a, b)| a + b).collect();
+        let states = contact_states(self.problem, reaction, &displacement);
+        let steps = self.scales.steps.iter();
+        Verdict {
+            status: steps
+                .zip(&states)
+                .map(|(step, state)| step.status(state))
+                .collect(),
+            certificate: self.certificate(reaction, &response, &states),
+            displacement,
+        }
+    }
+
+    fn certificate(
+        &self,
+        reaction: &[f64],
+        response: &[f64],
+        states: &[ContactState],
+    ) -> Certificate {
+        let offsets = self.problem.offsets();
+        let force = largest_block(offsets, reaction).max(self.scales.force);
+        let length = largest_block(offsets, response).max(self.scales.length);
+        let energy = force * length;
+        let (signorini, coulomb) = (signorini_residual(states), coulomb_residual(states));
+        Certificate {
+            natural_map: self.natural_map(reaction, states),
+            penetration: signorini.penetration.over(length),
+            tension: signorini.tension.over(force),
+            complementarity: signorini.complementarity.over(energy),
+            disc_excess: coulomb.disc_excess.over(force),
+            dissipation_defect: coulomb.dissipation_defect.over(energy),
+            bipotential_gap: bipotential_gap(states),
+            reaction_energy: 0.5 * dot(reaction, response),
+        }
+    }
+
+    /// `‖r‖₂` of (K1), relative to the reaction and, where that vanishes, to the load (K2).
+    fn natural_map(&self, reaction: &[f64], states: &[ContactState]) -> f64 {
+        let steps = self.scales.steps.iter().zip(states);
+        let residual: Vec<f64> = steps
+            .flat_map(|(step, state)| step.residual(state))
+            .collect();
+        ratio(norm(&residual), norm(reaction).max(self.scales.force_norm))
+    }
+
+    fn no_state(&self) -> Verdict {
+        let worst = Worst {
+            value: f64::INFINITY,
+            scaled: f64::INFINITY,
+            contact: 0,
+        };
+        Verdict {
+            displacement: vec![f64::INFINITY; self.problem.unknowns()],
+            status: vec![ContactStatus::Open; self.problem.contacts()],
+            certificate: Certificate {
+                natural_map: f64::INFINITY,
+                penetration: worst,
+                tension: worst,
+                complementarity: worst,
+                disc_excess: worst,
+                dissipation_defect: worst,
+                bipotential_gap: f64::INFINITY,
+                reaction_energy: f64::INFINITY,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::{Mat, mat};
+
+    use super::*;
+    use crate::condensation::Operator;
+
+    /// One contact with K = [[2, 1], [1, 1]] in (normal, tangent), G = [[1, −1], [−1, 2]],
+    /// μ = 0.5, no gap; lengths are multiplied by `length`, forces by `force`.
+    fn one_contact(free: [f64; 2], length: f64, force: f64) -> ContactProblem {
+        let compliance = mat![[1.0, -1.0], [-1.0, 2.0]] * faer::Scale(length / force);
+        let operator = Operator::from_compliance(compliance).unwrap();
+        let free = free.map(|u| u * length).to_vec();
+        ContactProblem::new(&[1], vec![0.5], vec![0.0], free, operator).unwrap()
+    }
+
+    #[test]
+    fn the_slipping_solution_of_one_contact_is_certified() {
+        // û = (0.25, 0.5), t = (−0.5, −0.25): u = (0.25 − 0.25, 0.5 + 0.5 − 0.5) = (0, 0.5),
+        // ‖t_T‖ = 0.25 = μ |t_N|, opposed to the slip.
+        let problem = one_contact([0.25, 0.5], 1.0, 1.0);
+        let verdict = Judge::new(&problem).measure(&[-0.5, -0.25]);
+        assert_eq!(verdict.displacement, [0.0, 0.5]);
+        assert_eq!(verdict.status, [ContactStatus::Slip]);
+        // ½ t · G t = ½ (−0.5, −0.25) · (−0.25, 0) = 0.0625 J.
+        let expected = Certificate {
+            reaction_energy: 0.0625,
+            ..Certificate::default()
+        };
+        assert_eq!(verdict.certificate, expected);
+    }
+
+    #[test]
+    fn the_open_solution_of_one_contact_is_certified() {
+        let problem = one_contact([-0.25, 1.5], 1.0, 1.0);
+        let verdict = Judge::new(&problem).measure(&[0.0, 0.0]);
+        assert_eq!(verdict.status, [ContactStatus::Open]);
+        assert_eq!(verdict.certificate, Certificate::default());
+    }
+
+    #[test]
+    fn every_law_that_a_wrong_reaction_breaks_is_measured() {
+        // t = (1, 2): u = (0.25 + 1 − 2, 0.5 − 1 + 4) = (−0.75, 3.5).
+        let problem = one_contact([0.25, 0.5], 1.0, 1.0);
+        let found = Judge::new(&problem).measure(&[1.0, 2.0]).certificate;
+        // Force ‖t‖ = √5 N, length ‖G t‖ = ‖(−1, 3)‖ = √10 m, energy √50 J;
+        // ‖t_T‖ + μ t_N = 2 + 0.5; |−0.5 · 3.5 + 2 · 3.5| = 5.25.
+        for (worst, value, scale) in [
+            (found.tension, 1.0, 5.0_f64.sqrt()),
+            (found.complementarity, 0.75, 50.0_f64.sqrt()),
+            (found.disc_excess, 2.5, 5.0_f64.sqrt()),
+            (found.dissipation_defect, 5.25, 50.0_f64.sqrt()),
+        ] {
+            assert_eq!(worst.value, value);
+            assert!((worst.scaled - value / scale).abs() < 1e-15);
+        }
+        assert_eq!(found.bipotential_gap, -0.75 + 7.0 - 1.75);
+        // r = (1, 2): the normal reaction pulls, the disc is empty; relative to t itself 1.
+        assert_eq!(found.natural_map, 1.0);
+    }
+
+    #[test]
+    fn no_reaction_where_one_is_needed_is_measured_against_the_load() {
+        // u = û = (0.25, 0.5); r = (ρ_N · 0.25, 0) = (0.25, 0). Local load force
+        // (0.25/1, 0.5/2), of length 0.25 √2; the floor is a thousandth of it.
+        let problem = one_contact([0.25, 0.5], 1.0, 1.0);
+        let found = Judge::new(&problem).measure(&[0.0, 0.0]).certificate;
+        assert!((found.natural_map - 1000.0 / 2.0_f64.sqrt()).abs() < 1e-9);
+        // ‖û‖ = 0.25 √5 m.
+        assert_eq!(found.penetration.value, 0.25);
+        assert!((found.penetration.scaled - 1.0 / 5.0_f64.sqrt()).abs() < 1e-15);
+    }
+
+    #[test]
+    fn units_and_the_size_of_the_load_change_no_scaled_value() {
+        let reference = Judge::new(&one_contact([0.25, 0.5], 1.0, 1.0)).measure(&[-0.75, 0.5]);
+        for (length, force) in [
+            (1e3, 1.0),
+            (1e6, 1e-6),
+            (1e-9, 1e-9),
+            (1e9, 1e9),
+            (1e-120, 1e130),
+        ] {
+            let problem = one_contact([0.25, 0.5], length, force);
+            let verdict = Judge::new(&problem).measure(&[-0.75 * force, 0.5 * force]);
+            let (found, expected) = (verdict.certificate, reference.certificate);
+            for (found, expected) in [
+                (found.natural_map, expected.natural_map),
+                (
+                    found.complementarity.scaled,
+                    expected.complementarity.scaled,
+                ),
+                (found.disc_excess.scaled, expected.disc_excess.scaled),
+                (
+                    found.dissipation_defect.scaled,
+                    expected.dissipation_defect.scaled,
+                ),
+            ] {
+                assert!(
+                    (found - expected).abs() < 1e-13 * expected,
+                    "{length} {force}"
+                );
+            }
+            assert_eq!(verdict.status, reference.status);
+        }
+    }
+
+    #[test]
+    fn nothing_acting_and_nothing_touching_is_a_perfect_state() {
+        let problem = one_contact([0.0, 0.0], 1.0, 1.0);
+        let found = Judge::new(&problem).measure(&[0.0, 0.0]).certificate;
+        assert_eq!(found, Certificate::default());
+        let empty = Operator::from_compliance(Mat::zeros(0, 0)).unwrap();
+        let nobody = ContactProblem::new(&[], vec![], vec![], vec![], empty).unwrap();
+        assert_eq!(
+            Judge::new(&nobody).measure(&[]).certificate,
+            Certificate::default()
+        );
+    }
+
+    #[test]
+    fn what_is_no_state_of_the_problem_never_scores() {
+        let problem = one_contact([0.25, 0.5], 1.0, 1.0);
+        let judge = Judge::new(&problem);
+        for reaction in [
+            &[f64::NAN, 0.0][..],
+            &[0.0, f64::INFINITY],
+            &[0.0],
+            &[0.0; 3],
+        ] {
+            let found = judge.measure(reaction);
+            assert_eq!(found.certificate.natural_map, f64::INFINITY);
+            assert_eq!((found.displacement.len(), found.status.len()), (2, 1));
+        }
+        // Finite, but its response overflows.
+        let huge = judge.measure(&[-1e308, 1e308]).certificate;
+        assert_eq!(huge.natural_map, f64::INFINITY);
+    }
+}
