@@ -14,3 +14,5 @@ pub use condensation::ContactProblem;
 pub use dpana::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
+pub use pipeline::{Solution, solve};
+pub use scene::Scene;

@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use dpana::Status;
+use dpana::report::replace_file;
 use dpana::scene::{self, Scene};
 
 /// Certified frictional contact of elastic bodies.
@@ -69,11 +70,10 @@ fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         return Err("--report, --vtu: the same file; expected two".into());
     }
     let scene = Scene::from_file(&arguments.scene)?;
-    let solution = stand_in::solve(&scene)?;
-    let report = solution.report();
+    let solution = dpana::solve(&scene)?;
+    let report = solution.report()?;
     if let Some(path) = &arguments.report {
-        write_whole(path, &report.to_json())
-            .map_err(|error| format!("--report {}: {error}", path.display()))?;
+        replace_file(path, &report.to_json())?;
     }
     if let Some(path) = &arguments.vtu {
         solution.write_vtu(path)?;
@@ -140,58 +140,5 @@ fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
-    }
-}
-
-/// Writes beside the file and renames, so that the old file stays whole until the new one is.
-fn write_whole(path: &Path, text: &str) -> io::Result<()> {
-    // A pipe or a device holds nothing to keep whole, and must not be renamed over.
-    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
-        return fs::write(path, text);
-    }
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    let beside = folder(path).join(format!(".{name}.{}", std::process::id()));
-    let written = fs::write(&beside, text).and_then(|()| fs::rename(&beside, path));
-    if written.is_err() {
-        // The first error is the one to report.
-        let _ = fs::remove_file(&beside);
-    }
-    written
-}
-
-/// The seam to the pipeline, which joins here as `dpana::solve`.
-mod stand_in {
-    use std::path::Path;
-
-    use dpana::scene::Scene;
-    use dpana::{Error, Status};
-
-    pub(crate) struct Solution;
-    pub(crate) struct Report;
-
-    pub(crate) fn solve(scene: &Scene) -> Result<Solution, Error> {
-        scene.mechanics()?;
-        Ok(Solution)
-    }
-
-    impl Solution {
-        pub(crate) fn status(&self) -> Status {
-            Status::NotConverged
-        }
-        pub(crate) fn report(&self) -> Report {
-            Report
-        }
-        pub(crate) fn write_vtu(&self, _path: &Path) -> Result<(), Error> {
-            Ok(())
-        }
-    }
-
-    impl Report {
-        pub(crate) fn to_json(&self) -> String {
-            "{}\n".to_owned()
-        }
-        pub(crate) fn summary(&self) -> String {
-            "not solved".to_owned()
-        }
     }
 }
