@@ -162,3 +162,90 @@ impl Patches {
         self.keys.binary_search(&[material, centre]).ok()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::samples::{block, distorted};
+
+    #[test]
+    fn only_nearly_incompressible_cells_that_feel_it_average() {
+        let of = |kind, model, poisson| {
+            Dilatation::of(
+                kind,
+                model,
+                &Material {
+                    young: 1.0,
+                    poisson,
+                },
+            )
+        };
+        let plate = Model::PlaneStress { thickness: 1.0 };
+        assert_eq!(
+            of(CellKind::Quad4, Model::PlaneStrain, 0.44),
+            Dilatation::Pointwise
+        );
+        assert_eq!(
+            of(CellKind::Quad4, Model::PlaneStrain, 0.45),
+            Dilatation::CellMean
+        );
+        assert_eq!(of(CellKind::Hex8, Model::Solid, 0.49), Dilatation::CellMean);
+        assert_eq!(of(CellKind::Tet4, Model::Solid, 0.49), Dilatation::NodeMean);
+        assert_eq!(of(CellKind::Tri3, plate, 0.49), Dilatation::Pointwise);
+    }
+
+    #[test]
+    fn patches_share_the_volume_and_give_a_uniform_dilatation() {
+        // Σ V_p = V = 2 m² (m³); u = x has θ = dimension, so b_p · x = dimension in every patch.
+        for kind in [CellKind::Tri3, CellKind::Tet4] {
+            let mut body = distorted(kind);
+            body.materials[0].poisson = 0.49;
+            let lambda = body.materials[0].lame(body.model).lambda;
+            let patches = Patches::new(&body);
+            let volume: f64 = patches.iter().map(|patch| patch.stiffness / lambda).sum();
+            assert!((volume - 2.0).abs() < 1e-13);
+            for patch in patches.iter() {
+                let terms = patch.nodes.iter().zip(patch.gradients);
+                let theta: f64 = terms
+                    .map(|(a, b)| b.dot(&Vector3::from(body.mesh.nodes[*a])))
+                    .sum();
+                assert!((theta - kind.dimension() as f64).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn each_material_averages_among_its_own_cells() {
+        // Two incompressible halves and a node on their border: it is the centre of two patches.
+        let mut body = block(CellKind::Tri3);
+        let soft = Material {
+            young: 1.0,
+            poisson: 0.49,
+        };
+        body.materials = vec![
+            soft,
+            soft,
+            Material {
+                young: 1.0,
+                poisson: 0.3,
+            },
+        ];
+        body.material_of_cell = (0..body.mesh.cell_count()).map(|cell| cell % 3).collect();
+        let patches = Patches::new(&body);
+        let around = |material: usize, node: usize| {
+            let cells = body.mesh.cells().zip(&body.material_of_cell);
+            cells
+                .filter(|(cell, of)| **of == material && cell.nodes.contains(&node))
+                .count()
+        };
+        for node in 0..body.mesh.nodes.len() {
+            for material in 0..2 {
+                assert_eq!(
+                    patches.find(material, node).is_some(),
+                    around(material, node) > 0
+                );
+            }
+            assert_eq!(patches.find(2, node), None);
+        }
+    }
+}

@@ -84,3 +84,194 @@ fn gradient_product(points: &[Mapped], a: usize, b: usize) -> Matrix3<f64> {
     }
     product
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use nalgebra::Vector3;
+
+    use super::*;
+    use crate::body::samples::{block, distorted, facets, hold, solve};
+    use crate::body::{CellKind, Load, Model};
+
+    /// Distorted blocks of every kind in every model, with and without averaged dilatation.
+    fn bodies() -> Vec<Body> {
+        let mut bodies = Vec::new();
+        for kind in CellKind::ALL {
+            for poisson in [0.3, 0.4999, -0.5] {
+                let mut body = distorted(kind);
+                body.materials[0].poisson = poisson;
+                if kind.dimension() == 2 {
+                    let mut plate = body.clone();
+                    plate.model = Model::PlaneStress { thickness: 0.1 };
+                    bodies.push(plate);
+                }
+                bodies.push(body);
+            }
+        }
+        bodies
+    }
+
+    /// Nodal values of `u = c + H x`.
+    fn linear(body: &Body, c: Vector3<f64>, h: Matrix3<f64>) -> Vec<f64> {
+        let value = |x: &[f64; 3]| c + h * Vector3::from(*x);
+        let values = body.mesh.nodes.iter().map(value);
+        let axes = body.mesh.dimension;
+        values
+            .flat_map(|u| (0..axes).map(move |axis| u[axis]))
+            .collect()
+    }
+
+    fn product(matrix: &sprs::CsMat<f64>, vector: &[f64]) -> Vec<f64> {
+        let row = |row: sprs::CsVecView<'_, f64>| row.iter().map(|(j, k)| k * vector[j]).sum();
+        matrix.outer_iterator().map(row).collect()
+    }
+
+    #[test]
+    fn the_matrix_is_symmetric_to_the_last_bit() {
+        for body in bodies() {
+            let matrix = stiffness(&body);
+            assert_eq!(matrix.rows(), body.mesh.dimension * body.mesh.nodes.len());
+            assert!(matrix.is_csr() && matrix == matrix.transpose_view().to_csr());
+        }
+    }
+
+    #[test]
+    fn rigid_motions_need_no_force() {
+        // u = c + ω × x with ω = (0.3, −0.7, 1.1), in 2D only the turn about z.
+        for body in bodies() {
+            let [x, y, z] = if body.mesh.dimension == 3 {
+                [0.3, -0.7, 1.1]
+            } else {
+                [0.0, 0.0, 1.1]
+            };
+            let spin = Matrix3::new(0.0, -z, y, z, 0.0, -x, -y, x, 0.0);
+            let motion = linear(&body, Vector3::new(1.0, 2.0, 3.0), spin);
+            let matrix = stiffness(&body);
+            let largest = matrix.data().iter().fold(0.0_f64, |m, k| m.max(k.abs()));
+            let forces = product(&matrix, &motion);
+            assert!(forces.iter().all(|f| f.abs() < 1e-13 * largest));
+        }
+    }
+
+    #[test]
+    fn a_linear_displacement_leaves_inner_nodes_without_force() {
+        // Patch test: uniform stress on distorted cells is in equilibrium. Volume change and shear.
+        let h = Matrix3::new(0.3, 0.1, -0.2, 0.4, -0.6, 0.1, 0.2, 0.5, 0.8);
+        for body in bodies() {
+            let displacement = linear(&body, Vector3::zeros(), h);
+            let matrix = stiffness(&body);
+            let largest = matrix.data().iter().fold(0.0_f64, |m, k| m.max(k.abs()));
+            let forces = product(&matrix, &displacement);
+            let axes = body.mesh.dimension;
+            let surface: Vec<usize> = body
+                .mesh
+                .boundary_facets()
+                .iter()
+                .flat_map(|f| f.nodes.clone())
+                .collect();
+            let inner = (0..body.mesh.nodes.len()).filter(|node| !surface.contains(node));
+            for node in inner {
+                assert!(
+                    forces[axes * node..axes * (node + 1)]
+                        .iter()
+                        .all(|f| f.abs() < 1e-13 * largest)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn energy_of_a_linear_displacement_is_that_of_its_strain() {
+        // ½ u·K u = ½ V depth (λ θ² + 2 μ ε:ε), V = 2; exact on distorted cells for any form of θ.
+        let h = Matrix3::new(0.3, 0.1, 0.0, 0.4, -0.6, 0.0, 0.0, 0.0, 0.0);
+        let strain = (h + h.transpose()) / 2.0;
+        for body in bodies() {
+            let displacement = linear(&body, Vector3::zeros(), h);
+            let forces = product(&stiffness(&body), &displacement);
+            let found: f64 = forces.iter().zip(&displacement).map(|(f, u)| f * u).sum();
+            let Lame { lambda, shear } = body.materials[0].lame(body.model);
+            let density = lambda * h.trace().powi(2) + 2.0 * shear * strain.norm_squared();
+            let expected = 2.0 * body.model.depth() * density;
+            assert!(
+                (found - expected).abs() < 1e-12 * expected,
+                "{found} {expected}"
+            );
+        }
+    }
+
+    /// Symmetry planes left, bottom (and front), pulled at the right with 3 Pa.
+    fn bar(kind: CellKind) -> Body {
+        let mut body = block(kind);
+        let planes = [("left", 0), ("bottom", kind.dimension() - 1), ("front", 1)];
+        for (name, axis) in planes.into_iter().take(kind.dimension()) {
+            hold(&mut body, name, axis);
+        }
+        let facets = facets(&body.mesh, "right");
+        body.loads = vec![Load::Pressure {
+            facets,
+            pressure: -3.0,
+        }];
+        body
+    }
+
+    #[test]
+    fn a_bar_under_uniform_tension_stretches_by_its_modulus() {
+        // u_x = σ x / E', u_y = −ν' σ y / E' with (E', ν') = (E, ν) in 3D and plane stress,
+        // (E/(1−ν²), ν/(1−ν)) in plane strain; σ = 3, E = 10.
+        for kind in CellKind::ALL {
+            for poisson in [0.3, 0.4999] {
+                let mut body = bar(kind);
+                body.materials[0].poisson = poisson;
+                let mut cases = vec![(body.clone(), 10.0, poisson)];
+                if kind.dimension() == 2 {
+                    cases[0].1 = 10.0 / (1.0 - poisson * poisson);
+                    cases[0].2 = poisson / (1.0 - poisson);
+                    body.model = Model::PlaneStress { thickness: 0.2 };
+                    cases.push((body, 10.0, poisson));
+                }
+                for (body, young, ratio) in cases {
+                    let found = solve(&body);
+                    let [x, y] = [3.0 / young, -ratio * 3.0 / young];
+                    let expected = linear(
+                        &body,
+                        Vector3::zeros(),
+                        Matrix3::from_diagonal(&Vector3::new(x, y, y)),
+                    );
+                    let close = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-10;
+                    assert!(found.iter().zip(&expected).all(close), "{kind:?} {poisson}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn cells_of_two_materials_in_a_row_stretch_each_by_its_own_modulus() {
+        // Springs in series: halves of 1 m with E = 10 and 30, ν = 0: 3/10 + 3/30 = 0.4 m.
+        for kind in CellKind::ALL {
+            let mut body = bar(kind);
+            body.materials = [10.0, 30.0]
+                .map(|young| crate::body::Material {
+                    young,
+                    poisson: 0.0,
+                })
+                .into();
+            let mut nodes = std::mem::take(&mut body.mesh.nodes);
+            let mut columns: Vec<f64> = nodes.iter().map(|x| x[0]).collect();
+            columns.sort_by(f64::total_cmp);
+            columns.dedup();
+            for x in &mut nodes {
+                x[0] = 0.5 * columns.iter().position(|c| *c == x[0]).unwrap() as f64;
+            }
+            body.mesh.nodes = nodes;
+            let stiff = |cell: usize| usize::from(body.mesh.centroid(cell)[0] > 1.0);
+            body.material_of_cell = (0..body.mesh.cell_count()).map(stiff).collect();
+            let found = solve(&body);
+            for (node, x) in body.mesh.nodes.iter().enumerate() {
+                let expected = 0.3 * x[0].min(1.0) + 0.1 * (x[0] - 1.0).max(0.0);
+                assert!((found[body.mesh.dimension * node] - expected).abs() < 1e-12);
+            }
+        }
+    }
+}
