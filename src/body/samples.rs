@@ -106,3 +106,18 @@ pub(crate) fn solve(body: &Body) -> Vec<f64> {
     }
     displacement
 }
+
+/// What `check` says about a block after a change.
+pub(crate) fn complaint(kind: CellKind, change: impl Fn(&mut Body)) -> String {
+    let mut body = block(kind);
+    change(&mut body);
+    match super::check(&body) {
+        Ok(()) => String::new(),
+        Err(error) => error.to_string(),
+    }
+}
+
+pub(crate) fn assert_says(kind: CellKind, change: impl Fn(&mut Body), parts: &[&str]) {
+    let found = complaint(kind, change);
+    assert!(parts.iter().all(|part| found.contains(part)), "{found}");
+}

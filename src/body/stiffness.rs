@@ -18,7 +18,7 @@ use super::sparsity::BlockMatrix;
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
 /// `dimension · node + axis` with ascending columns.
 ///
-/// The body has passed [`check`](super::check).
+/// The body has passed [`check`](super::check()).
 #[must_use]
 pub fn stiffness(body: &Body) -> sprs::CsMat<f64> {
     let mesh = &body.mesh;
