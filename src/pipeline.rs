@@ -40,6 +40,7 @@ pub fn solve(scene: &Scene) -> Result<Solution, Error> {
         surface: condensed.surface(),
         problem: condensed.problem(),
         reaction: &outcome.reaction,
+        contact_displacement: &outcome.verdict.displacement,
         displacement: &displacement,
     })?;
     let recovery_seconds = start.elapsed().as_secs_f64();
@@ -136,7 +137,7 @@ impl Solution {
         let work = self.condensed.work();
         Report::new(&ReportParts {
             title: &self.title,
-            units: Some(self.units.as_str()).filter(|units| !units.is_empty()),
+            units: &self.units,
             body: &self.body,
             surface: self.condensed.surface(),
             problem: self.condensed.problem(),
