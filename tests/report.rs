@@ -110,7 +110,7 @@ impl Row {
     fn report(&self) -> Report {
         Report::new(&ReportParts {
             title: "Row of squares",
-            units: Some("m, N, Pa"),
+            units: "m, N, Pa",
             body: &self.body,
             surface: &self.surface,
             problem: &self.problem,
@@ -316,7 +316,7 @@ fn parts_of_different_problems_are_refused() {
     row.displacement.pop();
     let parts = ReportParts {
         title: "",
-        units: None,
+        units: "",
         body: &row.body,
         surface: &row.surface,
         problem: &row.problem,

@@ -33,8 +33,8 @@ use crate::kkt;
 pub struct Report {
     /// Title of the scene.
     pub title: String,
-    /// The scene's label of units.
-    pub units: Option<String>,
+    /// The scene's label of units; empty where it names none.
+    pub units: String,
     /// How the solve ended.
     pub status: Status,
     /// Size of the problem.
@@ -85,8 +85,8 @@ pub struct Size {
 pub struct ReportParts<'a> {
     /// Title of the scene.
     pub title: &'a str,
-    /// The scene's label of units.
-    pub units: Option<&'a str>,
+    /// The scene's label of units; empty where it names none.
+    pub units: &'a str,
     /// The body.
     pub body: &'a Body,
     /// Its contact surface.
@@ -117,7 +117,7 @@ impl Report {
         let measured = &outcome.verdict.certificate;
         Ok(Self {
             title: parts.title.to_owned(),
-            units: parts.units.map(str::to_owned),
+            units: parts.units.to_owned(),
             status: outcome.status.into(),
             size: Size {
                 dimension: mesh.dimension,

@@ -25,16 +25,18 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the body",
     };
     let (extent, residual) = (&report.size, size(report.certificate.natural_map));
-    writeln!(text, "{}", report.title)?;
+    if !report.title.is_empty() {
+        writeln!(text, "{}", report.title)?;
+    }
     writeln!(text, "status          {status}")?;
     writeln!(
         text,
         "residual        {residual} (natural map, relative to the reaction)"
     )?;
-    let units = report
-        .units
-        .as_deref()
-        .unwrap_or("not named; those of the scene");
+    let units = match report.units.as_str() {
+        "" => "not named; those of the scene",
+        named => named,
+    };
     writeln!(text, "units           {units}")?;
     writeln!(
         text,

@@ -116,3 +116,17 @@ impl Document {
         self.text += "\n</DataArray>\n";
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_array_starts_with_its_number_of_bytes() {
+        let mut document = Document::new(1, &Cells::default());
+        document.integers("state", std::iter::once(7));
+        // Eight bytes that say 4, then the four bytes of 7: 16 characters, 6 bits each.
+        let coded = document.text.lines().rev().nth(1);
+        assert_eq!(coded, Some("BAAAAAAAAAAHAAAA"));
+    }
+}
