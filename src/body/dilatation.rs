@@ -15,8 +15,10 @@
 //! 1413–1418; Malkus & Hughes, Comput. Meth. Appl. Mech. Engng 15 (1978) 63–81). (B5) is the
 //! average nodal pressure of Bonet & Burton (Commun. Numer. Meth. Engng 14 (1998)
 //! 437–449): one volume constraint per node, where the plain simplex has one per cell,
-//! two to five times as many. The μ-term stays as it is in both, so no deformation but a
-//! rigid one is free of energy. In plane stress the thickness yields and nothing locks.
+//! two to five times as many. Its displacements converge as those of a compressible
+//! body; its pressures are rougher than those of (B4), which is the better choice where
+//! pressure matters. The μ-term stays as it is in both, so no deformation but a rigid one
+//! is free of energy. In plane stress the thickness yields and nothing locks.
 
 use nalgebra::Vector3;
 
