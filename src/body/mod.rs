@@ -15,6 +15,8 @@ mod dilatation;
 mod facet;
 mod incidence;
 mod load;
+#[cfg(test)]
+mod locking;
 mod material;
 pub mod mesh;
 mod quadrature;

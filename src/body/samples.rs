@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{Body, CellKind, Facet, Group, Material, Mesh, Model, box_mesh, graded, rectangle};
+use super::{
+    Body, CellKind, Facet, Group, Material, Mesh, Model, Support, box_mesh, graded, rectangle,
+};
 
 /// A block of 2 × 1 (× 1) m with 4 × 2 (× 2) uneven cells, `E = 10 Pa`, `ν = 0.3`.
 pub(crate) fn block(kind: CellKind) -> Body {
@@ -57,6 +59,20 @@ pub(crate) fn facets(mesh: &Mesh, name: &str) -> Vec<Facet> {
         Group::Facets(facets) => facets.clone(),
         other => unreachable!("{other:?}"),
     }
+}
+
+/// Holds one component of a named group's nodes at zero.
+pub(crate) fn hold(body: &mut Body, name: &str, axis: usize) {
+    let nodes = facets(&body.mesh, name)
+        .into_iter()
+        .flat_map(|facet| facet.nodes);
+    let mut displacement = [None; 3];
+    displacement[axis] = Some(0.0);
+    body.supports.push(Support {
+        place: name.to_owned(),
+        nodes: nodes.collect(),
+        displacement,
+    });
 }
 
 /// Solves `K u = f` for the components that are not prescribed, by a dense factorisation.
