@@ -371,3 +371,267 @@ mod tests {
         assert_says(CellKind::Tri3, plate, &["model.thickness"]);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::samples::{block, facets};
+    use crate::body::{Material, Model, Support};
+
+    /// What `check` says about a block after a change.
+    fn complaint(kind: CellKind, change: impl Fn(&mut Body)) -> String {
+        let mut body = block(kind);
+        change(&mut body);
+        match check(&body) {
+            Ok(()) => String::new(),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    fn assert_says(kind: CellKind, change: impl Fn(&mut Body), parts: &[&str]) {
+        let found = complaint(kind, change);
+        assert!(parts.iter().all(|part| found.contains(part)), "{found}");
+    }
+
+    #[test]
+    fn a_sound_body_passes() {
+        for kind in CellKind::ALL {
+            let sound = |body: &mut Body| {
+                let facets = facets(&body.mesh, "top");
+                body.loads = vec![Load::Pressure {
+                    facets,
+                    pressure: 1.0,
+                }];
+            };
+            assert_eq!(complaint(kind, sound), "");
+        }
+    }
+
+    #[test]
+    fn a_cell_turned_inside_out_is_named_with_its_place_and_volume() {
+        // Mirrored at x = 0, every cell is inside out; the first has 1/6 · (…) of the length: named by its number.
+        for kind in CellKind::ALL {
+            let mirror = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[0] = -x[0]);
+            assert_says(kind, mirror, &["block: cell 0 at (-", "signed volume -"]);
+        }
+    }
+
+    #[test]
+    fn a_flat_cell_is_refused_whatever_its_aspect() {
+        for kind in CellKind::ALL {
+            let axis = kind.dimension() - 1;
+            let flatten = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[axis] = 0.0);
+            assert_says(kind, flatten, &["cell 0 at", "flat"]);
+            let thin = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[axis] *= 1e-9);
+            assert_eq!(complaint(kind, thin), "");
+        }
+    }
+
+    #[test]
+    fn a_quadrilateral_with_a_reentrant_corner_is_folded_though_its_volume_is_positive() {
+        // Corner (1, 1) of the unit square moved to (0.4, 0.4): area 0.4, corner angle above 180°.
+        let fold = |body: &mut Body| {
+            let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.4, 0.4, 0.0], [0.0, 1.0, 0.0]];
+            body.mesh = Mesh::new(2, corners.to_vec());
+            body.mesh.push_cell(CellKind::Quad4, &[0, 1, 2, 3]);
+            body.material_of_cell = vec![0];
+        };
+        assert_says(
+            CellKind::Quad4,
+            fold,
+            &["cell 0", "folded", "signed volume 4e-1"],
+        );
+    }
+
+    #[test]
+    fn numbers_that_are_not_numbers_are_found_everywhere() {
+        let kind = CellKind::Hex8;
+        assert_says(
+            kind,
+            |b| b.mesh.nodes[3][1] = f64::NAN,
+            &["block: node 3[1]", "NaN"],
+        );
+        assert_says(
+            kind,
+            |b| b.materials[0].young = f64::NAN,
+            &["materials[0].young"],
+        );
+        let support = Support {
+            place: "supports[0]".to_owned(),
+            nodes: vec![0],
+            displacement: [None, Some(f64::INFINITY), None],
+        };
+        assert_says(
+            kind,
+            |b| b.supports = vec![support.clone()],
+            &["supports[0].displacement[1]", "inf"],
+        );
+        let force = [0.0, 0.0, f64::NAN];
+        let load = Load::PointForce { node: 0, force };
+        assert_says(
+            kind,
+            |b| b.loads = vec![load.clone()],
+            &["loads[0].force[2]", "NaN"],
+        );
+    }
+
+    #[test]
+    fn nodes_cells_and_materials_that_do_not_exist_are_named() {
+        let kind = CellKind::Quad4;
+        let exists = "does not exist";
+        assert_says(
+            kind,
+            |b| b.material_of_cell[2] = 7,
+            &["cell 2", "material 7", exists],
+        );
+        assert_says(
+            kind,
+            |b| b.mesh.push_cell(CellKind::Tri3, &[0, 1, 99]),
+            &["material_of_cell"],
+        );
+        let cell = |b: &mut Body| {
+            b.mesh.push_cell(CellKind::Tri3, &[0, 1, 99]);
+            b.material_of_cell.push(0);
+        };
+        assert_says(kind, cell, &["cell 8", "node 99", exists, "less than 15"]);
+        let force = Load::PointForce {
+            node: 99,
+            force: [1.0, 0.0, 0.0],
+        };
+        assert_says(
+            kind,
+            |b| b.loads = vec![force.clone()],
+            &["loads[0]", "node 99", exists],
+        );
+        let weight = Load::BodyForce {
+            cells: vec![8],
+            density: [1.0, 0.0, 0.0],
+        };
+        assert_says(
+            kind,
+            |b| b.loads = vec![weight.clone()],
+            &["loads[0]", "cell 8", exists],
+        );
+    }
+
+    #[test]
+    fn cells_must_fit_their_kind_and_the_dimension() {
+        let push = |b: &mut Body, kind, nodes: &[usize]| {
+            b.mesh.push_cell(kind, nodes);
+            b.material_of_cell.push(0);
+        };
+        let short = |b: &mut Body| push(b, CellKind::Quad4, &[0, 1, 2]);
+        assert_says(
+            CellKind::Quad4,
+            short,
+            &["cell 8 (quad4)", "expected 4", "found 3"],
+        );
+        let solid = |b: &mut Body| push(b, CellKind::Tet4, &[0, 1, 5, 6]);
+        assert_says(
+            CellKind::Quad4,
+            solid,
+            &["cell 8 (tet4)", "dimension 3", "expected 2"],
+        );
+        assert_says(
+            CellKind::Quad4,
+            |b| b.model = Model::Solid,
+            &["mesh", "expected 3"],
+        );
+        assert_says(
+            CellKind::Quad4,
+            |b| b.mesh = Mesh::new(2, vec![]),
+            &["cells: empty"],
+        );
+        assert_says(
+            CellKind::Quad4,
+            |b| b.mesh.nodes[4][2] = 0.1,
+            &["node 4[2]", "plane"],
+        );
+    }
+
+    #[test]
+    fn a_node_of_no_cell_is_named_with_its_position() {
+        let add = |b: &mut Body| b.mesh.nodes.push([7.0, 8.0, 0.0]);
+        assert_says(
+            CellKind::Tri3,
+            add,
+            &["block: node 15", "7.0", "8.0", "belongs to no cell"],
+        );
+    }
+
+    #[test]
+    fn impossible_materials_are_refused_by_name() {
+        let set = |poisson| {
+            move |b: &mut Body| {
+                b.materials[0] = Material {
+                    young: 1.0,
+                    poisson,
+                }
+            }
+        };
+        assert_says(
+            CellKind::Tri3,
+            set(0.5),
+            &["block: materials[0].poisson: 0.5", "< 0.5"],
+        );
+        let plate = |b: &mut Body| b.model = Model::PlaneStress { thickness: 0.0 };
+        assert_says(CellKind::Tri3, plate, &["model.thickness"]);
+    }
+
+    #[test]
+    fn loads_on_nothing_inside_backwards_or_twice_are_refused() {
+        let press = |change: fn(&mut Vec<Facet>)| {
+            move |body: &mut Body| {
+                let mut facets = facets(&body.mesh, "top");
+                change(&mut facets);
+                body.loads = vec![Load::Pressure {
+                    facets,
+                    pressure: 1.0,
+                }];
+            }
+        };
+        for kind in CellKind::ALL {
+            assert_says(kind, press(|f| f.clear()), &["block: loads[0]", "empty"]);
+            assert_says(
+                kind,
+                press(|f| f[1].nodes.reverse()),
+                &["loads[0].facets[1]", "outward order"],
+            );
+            assert_says(
+                kind,
+                press(|f| f.push(f[0].clone())),
+                &["loads[0]", "twice"],
+            );
+            assert_says(
+                kind,
+                press(|f| f[0].nodes[0] = 999),
+                &["loads[0].facets[0]", "belongs to 0 cells"],
+            );
+        }
+        let inside = press(|facets| facets[0].nodes = vec![6, 7]);
+        assert_says(CellKind::Quad4, inside, &["[6, 7]", "belongs to 2 cells"]);
+        let weight = Load::BodyForce {
+            cells: vec![3, 3],
+            density: [1.0, 0.0, 0.0],
+        };
+        assert_says(
+            CellKind::Quad4,
+            |b| b.loads = vec![weight.clone()],
+            &["cell [3]", "twice"],
+        );
+    }
+
+    #[test]
+    fn a_facet_may_start_at_any_of_its_nodes() {
+        let turn = |body: &mut Body| {
+            let mut facets = facets(&body.mesh, "top");
+            facets[0].nodes.rotate_left(2);
+            body.loads = vec![Load::Pressure {
+                facets,
+                pressure: 1.0,
+            }];
+        };
+        assert_eq!(complaint(CellKind::Hex8, turn), "");
+        assert_eq!(complaint(CellKind::Tet4, turn), "");
+    }
+}

@@ -169,9 +169,11 @@ impl Condensed {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::body::samples::{block, distorted, facets};
-    use crate::body::{CellKind, Load, Support};
+    use crate::body::samples::{block, body, distorted, facets};
+    use crate::body::{CellKind, Facet, Load, Material, Mesh, Model, Support, graded, rectangle};
     use crate::condensation::Obstacle;
+    use faer::Mat;
+    use nalgebra::{Rotation3, Vector3};
 
     const KINDS: [CellKind; 4] = [
         CellKind::Tri3,
@@ -256,14 +258,19 @@ mod tests {
 
     #[test]
     fn a_scene_turned_in_space_has_the_same_contact_problem() {
-        // Turn by an angle of 0.6 about z: supports stay along axes only if all are held.
-        let turn = |[x, y, z]: [f64; 3]| {
-            let (sin, cos) = 0.6_f64.sin_cos();
-            [cos * x - sin * y, sin * x + cos * y, z]
-        };
-        for kind in [CellKind::Quad4, CellKind::Tri3] {
-            let (mut body, pair) = pressed(kind);
+        // Supports stay along axes under a turn only if they hold all of them, and tangents
+        // turn along in 2D only: in 3D the scene is without friction.
+        for kind in KINDS {
+            let axis = match kind.dimension() {
+                2 => Vector3::new(0.0, 0.0, 0.6),
+                _ => Vector3::new(0.7, -0.4, 0.2),
+            };
+            let turn = |v: [f64; 3]| (Rotation3::new(axis) * Vector3::from(v)).into();
+            let (mut body, mut pair) = pressed(kind);
             body.supports[0].displacement = [Some(0.0); 3];
+            if kind.dimension() == 3 {
+                pair.friction = 0.0;
+            }
             let straight = Condensed::new(&body, std::slice::from_ref(&pair)).unwrap();
             body.mesh
                 .nodes
@@ -303,6 +310,60 @@ mod tests {
     }
 
     #[test]
+    fn a_square_pressed_on_a_smooth_bed_is_a_uniform_patch() {
+        // SSNV128 with no friction: u_x(x = 0) = a [(1−ν²) σ_x − ν (1+ν) σ_y] / E
+        //   = 0.04 (0.96 · 15e7 − 0.24 · 5e7) / 1.3e11 = 4.0615384615e-5 m, pressure σ_y below.
+        let side = graded(0.0, 0.04, 8, 3.0).unwrap();
+        let mesh = rectangle(&side, &side, CellKind::Quad4).unwrap();
+        let mut square = body(mesh, Model::PlaneStrain, 0.2);
+        square.materials[0].young = 1.3e11;
+        let mut hold = |nodes: Vec<usize>, displacement| {
+            square.supports.push(Support {
+                place: "supports".to_owned(),
+                nodes,
+                displacement,
+            });
+        };
+        hold((8..81).step_by(9).collect(), [Some(0.0), None, None]);
+        hold(vec![8], [None, Some(0.0), None]);
+        for (side, pressure) in [("top", 5e7), ("left", 15e7)] {
+            square.loads.push(Load::Pressure {
+                facets: facets(&square.mesh, side),
+                pressure,
+            });
+        }
+        let pair = ContactPair {
+            place: "contacts[0]".to_owned(),
+            facets: facets(&square.mesh, "bottom"),
+            obstacle: Obstacle::Plane {
+                point: [0.0; 3],
+                normal: [0.0, 1.0, 0.0],
+            },
+            friction: 0.0,
+        };
+        let condensed = Condensed::new(&square, &[pair]).unwrap();
+        assert_eq!(condensed.surface().left_out, [8]);
+        // Every contact closes: S t = −û, for the gap is zero.
+        let problem = condensed.problem();
+        let free = problem.free_displacement();
+        let free = Mat::from_fn(free.len(), 1, |i, _| -free[i]);
+        let reaction = problem.operator().stiffness().unwrap() * free;
+        for (contact, force) in condensed
+            .surface()
+            .nodes
+            .iter()
+            .zip(reaction.col_as_slice(0))
+        {
+            assert!((-force / contact.area / 5e7 - 1.0).abs() < 1e-10);
+        }
+        let displacement = condensed.recover(reaction.col_as_slice(0)).unwrap();
+        for node in (0..81).step_by(9) {
+            let expected = 0.04 * (0.96 * 15e7 - 0.24 * 5e7) / 1.3e11;
+            assert!((displacement[2 * node] / expected - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
     fn one_factorisation_serves_a_condensation() {
         let (body, pair) = pressed(CellKind::Quad4);
         let condensed = Condensed::new(&body, &[pair]).unwrap();
@@ -324,5 +385,52 @@ mod tests {
         let (_, pair) = pressed(CellKind::Hex8);
         let found = Condensed::new(&block(CellKind::Hex8), &[pair]).unwrap_err();
         assert!(matches!(found, Error::FreeMotion { .. }), "{found}");
+    }
+
+    #[test]
+    fn two_cells_that_share_one_node_are_a_hinge_and_refused() {
+        // The second cell can turn about node 2: no rigid motion of the whole, but no stiffness.
+        let at = [[0, 0], [1, 0], [1, 1], [0, 1], [2, 1], [2, 2], [1, 2]];
+        let nodes = at.map(|[x, y]| [f64::from(x), f64::from(y), 0.0]);
+        let mut mesh = Mesh::new(2, nodes.to_vec());
+        mesh.push_cell(CellKind::Quad4, &[0, 1, 2, 3]);
+        mesh.push_cell(CellKind::Quad4, &[2, 4, 5, 6]);
+        let mut hinged = body(mesh, Model::PlaneStrain, 0.3);
+        hinged.supports.push(Support {
+            place: "supports[0]".to_owned(),
+            nodes: vec![0, 3],
+            displacement: [Some(0.0); 3],
+        });
+        let pair = ContactPair {
+            place: "contacts[0]".to_owned(),
+            facets: vec![Facet { nodes: vec![2, 4] }],
+            obstacle: Obstacle::Plane {
+                point: [0.0; 3],
+                normal: [0.0, 1.0, 0.0],
+            },
+            friction: 0.5,
+        };
+        let found = Condensed::new(&hinged, &[pair]).unwrap_err();
+        assert!(
+            matches!(found, Error::NotPositiveDefinite { .. }),
+            "{found}"
+        );
+    }
+
+    #[test]
+    fn a_stiff_block_on_a_soft_stem_is_not_mistaken_for_a_free_body() {
+        // Cells at the supported end are 1e9 times softer than the others.
+        for kind in KINDS {
+            let (mut body, pair) = pressed(kind);
+            let soft = body.materials[0];
+            body.materials.push(Material {
+                young: 1e9 * soft.young,
+                ..soft
+            });
+            for (cell, material) in body.material_of_cell.iter_mut().enumerate() {
+                *material = usize::from(body.mesh.centroid(cell)[0] < 1.2);
+            }
+            assert!(Condensed::new(&body, &[pair]).is_ok(), "{kind:?}");
+        }
     }
 }

@@ -67,11 +67,11 @@ impl Factor {
         let symbolic = analyse(stiffness, frames, ordering)?;
         let lower = Columns::new(stiffness, frames, ordering, |row, column| row >= column);
         let start = Instant::now();
-        let mut values = Vec::new();
-        values
+        // Asked for first, because `vec!` ends the program where there is no memory.
+        Vec::<f64>::new()
             .try_reserve_exact(symbolic.len_val())
             .map_err(|_| Breakdown::TooLarge)?;
-        values.resize(symbolic.len_val(), 0.0);
+        let mut values = vec![0.0; symbolic.len_val()];
         let result = eliminate(&symbolic, &mut values, &lower);
         let factor = Self {
             symbolic,

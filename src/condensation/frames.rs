@@ -19,26 +19,29 @@ const NONE: usize = usize::MAX;
 #[derive(Clone, Debug)]
 pub(crate) struct Frames {
     dimension: usize,
-    contact_of_node: Vec<usize>,
+    /// Contact per degree of freedom, or [`NONE`].
+    contact_of_dof: Vec<usize>,
     frames: Vec<[[f64; 3]; 3]>,
 }
 
 impl Frames {
     /// The frames of `contacts` on a body of `nodes` nodes.
     pub(crate) fn new(dimension: usize, nodes: usize, contacts: &[ContactNode]) -> Self {
-        let mut contact_of_node = vec![NONE; nodes];
+        let mut contact_of_dof = vec![NONE; nodes * dimension];
         for (index, contact) in contacts.iter().enumerate() {
-            contact_of_node[contact.node] = index;
+            let first = contact.node * dimension;
+            contact_of_dof[first..first + dimension].fill(index);
         }
         Self {
             dimension,
-            contact_of_node,
+            contact_of_dof,
             frames: contacts.iter().map(|contact| contact.frame).collect(),
         }
     }
 
-    fn frame(&self, node: usize) -> Option<&[[f64; 3]; 3]> {
-        self.frames.get(self.contact_of_node[node])
+    /// The frame of the degree of freedom's node; none if it is no contact.
+    fn frame(&self, dof: usize) -> Option<&[[f64; 3]; 3]> {
+        self.frames.get(self.contact_of_dof[dof])
     }
 
     /// Visits `(column, value)` along row `dof` of K' (C4).
@@ -50,11 +53,11 @@ impl Frames {
         dof: usize,
         mut visit: impl FnMut(usize, f64),
     ) {
-        let (node, row) = (dof / self.dimension, dof % self.dimension);
-        let Some(frame) = self.frame(node) else {
+        let Some(frame) = self.frame(dof) else {
             self.visit_turned_columns(stiffness, dof, 1.0, &mut visit);
             return;
         };
+        let (node, row) = (dof / self.dimension, dof % self.dimension);
         for (axis, &weight) in frame[row][..self.dimension].iter().enumerate() {
             // A frame along the global axes adds no entry to K'.
             if weight != 0.0 {
@@ -75,11 +78,11 @@ impl Frames {
         let entries = stiffness.indptr().outer_inds_sz(global);
         let columns = &stiffness.indices()[entries.clone()];
         for (&column, &value) in columns.iter().zip(&stiffness.data()[entries]) {
-            let (node, axis) = (column / self.dimension, column % self.dimension);
-            let Some(frame) = self.frame(node) else {
+            let Some(frame) = self.frame(column) else {
                 visit(column, weight * value);
                 continue;
             };
+            let (node, axis) = (column / self.dimension, column % self.dimension);
             for (row, direction) in frame[..self.dimension].iter().enumerate() {
                 if direction[axis] != 0.0 {
                     let local = node * self.dimension + row;
@@ -102,7 +105,7 @@ impl Frames {
     fn turn(&self, vector: &mut [f64], entry: impl Fn(&[[f64; 3]; 3], usize, usize) -> f64) {
         let nodes = vector.chunks_exact_mut(self.dimension);
         for (node, part) in nodes.enumerate() {
-            let Some(frame) = self.frame(node) else {
+            let Some(frame) = self.frame(node * self.dimension) else {
                 continue;
             };
             let mut before = [0.0; 3];

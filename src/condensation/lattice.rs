@@ -1,6 +1,5 @@
 //! A lattice of springs: the smallest elastic body with a known stiffness, for tests.
 
-use faer::Mat;
 use sprs::{CsMat, TriMat};
 
 /// Nodes on a grid of unit spacing, each joined to its 8 (3D: 26) neighbours by a bar.
@@ -58,13 +57,4 @@ impl Lattice {
         }
         entries.to_csr()
     }
-}
-
-/// The dense matrix of a sparse one.
-pub(super) fn dense(sparse: &CsMat<f64>) -> Mat<f64> {
-    let mut dense = Mat::zeros(sparse.rows(), sparse.cols());
-    for (&value, (i, j)) in sparse.iter() {
-        dense[(i, j)] += value;
-    }
-    dense
 }

@@ -10,15 +10,18 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | where the body may touch what | `obstacle`, `surface`, `frame` |
+//! | where the body may touch what | `obstacle`, `facing`, `frame`, `surface` |
 //! | the stiffness in the contact's axes (C4) | `frames` |
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
 //! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
 //! | free displacement (C5) | `supported` |
 //! | recovered body (C6) | `condensed` |
 
+#[cfg(test)]
+mod bed;
 mod condensed;
 mod elimination_tree;
+mod facing;
 mod factor;
 mod frame;
 mod frames;

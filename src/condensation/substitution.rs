@@ -64,12 +64,16 @@ impl Factor {
             work.clear();
             work.extend_from_slice(&x[own.clone()]);
             work.extend(supernode.pattern.iter().map(|&row| x[row]));
-            for j in (0..supernode.width).rev() {
-                let column = supernode.column(j);
-                let known = dot(&column[j + 1..], &work[j + 1..]);
-                work[j] = (work[j] - known) / column[j];
+            let (top, below) = work.split_at_mut(supernode.width);
+            // All of the supernode once in the order of memory, its triangle from the cache.
+            for (j, value) in top.iter_mut().enumerate() {
+                *value -= dot(&supernode.column(j)[supernode.width..], below);
             }
-            x[own].copy_from_slice(&work[..supernode.width]);
+            for j in (0..supernode.width).rev() {
+                let column = &supernode.column(j)[..supernode.width];
+                top[j] = (top[j] - dot(&column[j + 1..], &top[j + 1..])) / column[j];
+            }
+            x[own].copy_from_slice(top);
         }
     }
 }

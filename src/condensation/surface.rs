@@ -1,27 +1,17 @@
 //! The contact surface: nodes, local frames, initial gaps and areas.
 //!
 //! ```text
-//! facing facets     m · n > 0         m: outward normal, n: direction to the obstacle
 //! area of node i    Σ ∫ N_i dA        over the facing facets of its pair
+//! initial gap       signed distance from the node to the obstacle
 //! ```
-//!
-//! Facets that look away from the obstacle, or along it, take no part: an assumed
-//! surface may grow over sides and back without changing the problem.
 
-use std::collections::{HashMap, HashSet};
-
-use nalgebra::Vector3;
+use std::collections::HashMap;
 
 use super::Obstacle;
+use super::facing::Boundary;
 use super::frame::Stance;
-use crate::body::{Body, Facet, FacetGeometry, Mesh};
+use crate::body::{Body, Facet, FacetGeometry};
 use crate::error::{Error, check_finite};
-
-/// Cosine between a facet's normal and the direction to the obstacle, above which it faces it.
-const FACING: f64 = 1e-6;
-
-/// Cosine above which a neighbouring facet continues the surface and does not turn a corner.
-const SMOOTH: f64 = 0.5;
 
 /// A part of the body's surface that may touch a rigid obstacle.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,6 +110,10 @@ impl ContactSurface {
                 left_out: surface.left_out.len(),
             });
         }
+        let left_out = &mut surface.left_out;
+        left_out.retain(|node| !contact_of_node.contains_key(node));
+        left_out.sort_unstable();
+        left_out.dedup();
         boundary.mark_rims(&mut surface.nodes, &contact_of_node, &pair_of_facet);
         Ok(surface)
     }
@@ -138,115 +132,6 @@ impl ContactPair {
         }
         check_finite(&place, &[self.friction])
     }
-}
-
-/// The facets of the body's boundary, found by their nodes.
-struct Boundary<'a> {
-    mesh: &'a Mesh,
-    facets: Vec<Facet>,
-    index_of: HashMap<Vec<usize>, usize>,
-}
-
-impl<'a> Boundary<'a> {
-    fn new(mesh: &'a Mesh) -> Self {
-        let facets = mesh.boundary_facets();
-        let keyed = facets.iter().enumerate();
-        let index_of = keyed.map(|(index, facet)| (key(facet), index)).collect();
-        Self {
-            mesh,
-            facets,
-            index_of,
-        }
-    }
-
-    /// The facets of a pair that face its obstacle, each once; all of them are noted as the pair's.
-    fn facing(
-        &self,
-        pair: &ContactPair,
-        pair_index: usize,
-        pair_of_facet: &mut HashMap<usize, usize>,
-    ) -> Result<Vec<(Facet, FacetGeometry)>, Error> {
-        let mut seen = HashSet::new();
-        let mut facing = Vec::new();
-        for (at, facet) in pair.facets.iter().enumerate() {
-            let Some(&index) = self.index_of.get(&key(facet)) else {
-                return Err(self.refuse(facet, format!("{}.facets[{at}]", pair.place)));
-            };
-            if !seen.insert(index) {
-                continue;
-            }
-            pair_of_facet.insert(index, pair_index);
-            let outward = &self.facets[index];
-            let geometry = self.mesh.facet_geometry(outward);
-            let seen_from = pair.obstacle.closest(&pair.place, self.centre(outward))?;
-            if cosine(geometry.normal, seen_from.direction) > FACING {
-                facing.push((outward.clone(), geometry));
-            }
-        }
-        if facing.is_empty() {
-            return Err(Error::NothingFacesObstacle {
-                place: pair.place.clone(),
-                facets: pair.facets.len(),
-            });
-        }
-        Ok(facing)
-    }
-
-    /// Why a facet is not one of the boundary.
-    fn refuse(&self, facet: &Facet, place: String) -> Error {
-        let cells = match self.mesh.orient(std::slice::from_ref(facet)) {
-            Err(Error::FacetOwners { cells, .. }) => cells,
-            _ => 0,
-        };
-        Error::FacetOwners {
-            place,
-            nodes: facet.nodes.clone(),
-            cells,
-        }
-    }
-
-    /// Mean of the nodes, in metre.
-    fn centre(&self, facet: &Facet) -> [f64; 3] {
-        let nodes = facet.nodes.iter();
-        let sum: Vector3<f64> = nodes
-            .map(|&node| Vector3::from(self.mesh.nodes[node]))
-            .sum();
-        (sum / facet.nodes.len() as f64).into()
-    }
-
-    /// Marks contacts where a boundary facet outside their pair goes on in the same direction.
-    fn mark_rims(
-        &self,
-        contacts: &mut [ContactNode],
-        contact_of_node: &HashMap<usize, usize>,
-        pair_of_facet: &HashMap<usize, usize>,
-    ) {
-        for (index, facet) in self.facets.iter().enumerate() {
-            let pair = pair_of_facet.get(&index);
-            for node in &facet.nodes {
-                let Some(&contact) = contact_of_node.get(node) else {
-                    continue;
-                };
-                let contact = &mut contacts[contact];
-                if pair == Some(&contact.pair) || contact.rim {
-                    continue;
-                }
-                let normal = self.mesh.facet_geometry(facet).normal;
-                contact.rim = cosine(normal, contact.frame[0]) > SMOOTH;
-            }
-        }
-    }
-}
-
-/// The nodes of a facet in ascending order, the same from both sides.
-fn key(facet: &Facet) -> Vec<usize> {
-    let mut nodes = facet.nodes.clone();
-    nodes.sort_unstable();
-    nodes
-}
-
-fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
-    Vector3::from(a).dot(&Vector3::from(b))
 }
 
 /// Nodes of the facing facets in the order they are met, with their area in m².
