@@ -1,12 +1,10 @@
 //! What a body must satisfy before it is assembled.
 
-use std::collections::HashSet;
-
 use nalgebra::Vector3;
 
-use super::boundary::Owners;
+use super::applied::{check_loads, check_supports};
 use super::quadrature::{Point, positions, rule};
-use super::{Body, Cell, CellKind, Facet, Load, Mesh};
+use super::{Body, Cell, CellKind, Mesh};
 use crate::error::{Error, check_finite, check_length};
 
 /// Least Jacobian accepted, on the scale where a right-angled cell of any aspect has 1.
@@ -146,86 +144,8 @@ fn check_lone_nodes(body: &Body) -> Result<(), Error> {
     }
 }
 
-fn check_supports(body: &Body) -> Result<(), Error> {
-    for support in &body.supports {
-        let place = || support.place.clone();
-        check_not_empty(place, support.nodes.len())?;
-        check_indices(place, "node", &support.nodes, body.mesh.nodes.len())?;
-        let values = support.displacement.map(|value| value.unwrap_or(0.0));
-        check_vector(body, || format!("{}.displacement", support.place), &values)?;
-    }
-    Ok(())
-}
-
-fn check_loads(body: &Body) -> Result<(), Error> {
-    let listed = body.loads.iter().flat_map(|load| match load {
-        Load::Pressure { facets, .. } | Load::Traction { facets, .. } => facets.as_slice(),
-        Load::BodyForce { .. } | Load::PointForce { .. } => &[],
-    });
-    let owners = Owners::new(&body.mesh, listed);
-    for (index, load) in body.loads.iter().enumerate() {
-        let place = || format!("{}: loads[{index}]", body.name);
-        match load {
-            Load::Pressure { facets, pressure } => {
-                check_finite(&format!("{}.pressure", place()), &[*pressure])?;
-                check_facets(place, facets, &owners)?;
-            }
-            Load::Traction { facets, traction } => {
-                check_vector(body, || format!("{}.traction", place()), traction)?;
-                check_facets(place, facets, &owners)?;
-            }
-            Load::BodyForce { cells, density } => {
-                check_vector(body, || format!("{}.density", place()), density)?;
-                check_not_empty(place, cells.len())?;
-                check_indices(place, "cell", cells, body.mesh.cell_count())?;
-                check_once(place, "cell", cells.iter().map(|cell| vec![*cell]))?;
-            }
-            Load::PointForce { node, force } => {
-                check_vector(body, || format!("{}.force", place()), force)?;
-                check_indices(place, "node", &[*node], body.mesh.nodes.len())?;
-            }
-        }
-    }
-    Ok(())
-}
-
-fn check_facets(
-    place: impl Fn() -> String,
-    facets: &[Facet],
-    owners: &Owners<'_>,
-) -> Result<(), Error> {
-    check_not_empty(&place, facets.len())?;
-    for (index, facet) in facets.iter().enumerate() {
-        let place = || format!("{}.facets[{index}]", place());
-        let outward = owners.outward(facet, place)?;
-        if !same_cycle(&facet.nodes, &outward.nodes) {
-            return Err(Error::FacetInward {
-                place: place(),
-                nodes: facet.nodes.clone(),
-            });
-        }
-    }
-    let sorted = facets.iter().map(|facet| {
-        let mut nodes = facet.nodes.clone();
-        nodes.sort_unstable();
-        nodes
-    });
-    check_once(place, "facet", sorted)
-}
-
-/// Whether two walks around a facet differ only in where they start; two ends of a line do not.
-fn same_cycle(one: &[usize], other: &[usize]) -> bool {
-    if one.len() == 2 {
-        return one == other;
-    }
-    (0..other.len()).any(|start| {
-        let turned = other[start..].iter().chain(&other[..start]);
-        one.iter().eq(turned)
-    })
-}
-
 /// Refuses a component out of the plane of a plane body, and one that is not finite.
-fn check_vector(
+pub(super) fn check_vector(
     body: &Body,
     place: impl Fn() -> String,
     components: &[f64; 3],
@@ -243,14 +163,7 @@ fn check_vector(
     Ok(())
 }
 
-fn check_not_empty(place: impl Fn() -> String, length: usize) -> Result<(), Error> {
-    if length > 0 {
-        return Ok(());
-    }
-    Err(Error::Empty { place: place() })
-}
-
-fn check_indices(
+pub(super) fn check_indices(
     place: impl Fn() -> String,
     what: &'static str,
     indices: &[usize],
@@ -267,18 +180,194 @@ fn check_indices(
     }
 }
 
-fn check_once(
-    place: impl Fn() -> String,
-    what: &'static str,
-    mut entries: impl Iterator<Item = Vec<usize>>,
-) -> Result<(), Error> {
-    let mut seen = HashSet::new();
-    match entries.find(|entry| !seen.insert(entry.clone())) {
-        None => Ok(()),
-        Some(index) => Err(Error::Repeated {
-            place: place(),
-            what,
-            index,
-        }),
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::samples::{assert_says, complaint, facets};
+    use crate::body::{Load, Material, Model, Support};
+
+    #[test]
+    fn a_sound_body_passes() {
+        for kind in CellKind::ALL {
+            let sound = |body: &mut Body| {
+                let facets = facets(&body.mesh, "top");
+                body.loads = vec![Load::Pressure {
+                    facets,
+                    pressure: 1.0,
+                }];
+            };
+            assert_eq!(complaint(kind, sound), "");
+        }
+    }
+
+    #[test]
+    fn a_cell_turned_inside_out_is_named_with_its_place_and_volume() {
+        // Mirrored at x = 0 every cell is inside out, and the first is named.
+        for kind in CellKind::ALL {
+            let mirror = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[0] = -x[0]);
+            assert_says(kind, mirror, &["block: cell 0 at (-", "signed volume -"]);
+        }
+    }
+
+    #[test]
+    fn a_flat_cell_is_refused_whatever_its_aspect() {
+        for kind in CellKind::ALL {
+            let axis = kind.dimension() - 1;
+            let flatten = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[axis] = 0.0);
+            assert_says(kind, flatten, &["cell 0 at", "flat"]);
+            let thin = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[axis] *= 1e-9);
+            assert_eq!(complaint(kind, thin), "");
+        }
+    }
+
+    #[test]
+    fn a_quadrilateral_with_a_reentrant_corner_is_folded_though_its_volume_is_positive() {
+        // Corner (1, 1) of the unit square moved to (0.4, 0.4): area 0.4, corner angle above 180°.
+        let fold = |body: &mut Body| {
+            let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.4, 0.4, 0.0], [0.0, 1.0, 0.0]];
+            body.mesh = Mesh::new(2, corners.to_vec());
+            body.mesh.push_cell(CellKind::Quad4, &[0, 1, 2, 3]);
+            body.material_of_cell = vec![0];
+        };
+        assert_says(
+            CellKind::Quad4,
+            fold,
+            &["cell 0", "folded", "signed volume 4e-1"],
+        );
+    }
+
+    #[test]
+    fn numbers_that_are_not_numbers_are_found_everywhere() {
+        let kind = CellKind::Hex8;
+        assert_says(
+            kind,
+            |b| b.mesh.nodes[3][1] = f64::NAN,
+            &["block: node 3[1]", "NaN"],
+        );
+        assert_says(
+            kind,
+            |b| b.materials[0].young = f64::NAN,
+            &["materials[0].young"],
+        );
+        let support = Support {
+            place: "supports[0]".to_owned(),
+            nodes: vec![0],
+            displacement: [None, Some(f64::INFINITY), None],
+        };
+        assert_says(
+            kind,
+            |b| b.supports = vec![support.clone()],
+            &["supports[0].displacement[1]", "inf"],
+        );
+        let force = [0.0, 0.0, f64::NAN];
+        let load = Load::PointForce { node: 0, force };
+        assert_says(
+            kind,
+            |b| b.loads = vec![load.clone()],
+            &["loads[0].force[2]", "NaN"],
+        );
+    }
+
+    #[test]
+    fn nodes_cells_and_materials_that_do_not_exist_are_named() {
+        let kind = CellKind::Quad4;
+        let exists = "does not exist";
+        assert_says(
+            kind,
+            |b| b.material_of_cell[2] = 7,
+            &["cell 2", "material 7", exists],
+        );
+        assert_says(
+            kind,
+            |b| b.mesh.push_cell(CellKind::Tri3, &[0, 1, 99]),
+            &["material_of_cell"],
+        );
+        let cell = |b: &mut Body| {
+            b.mesh.push_cell(CellKind::Tri3, &[0, 1, 99]);
+            b.material_of_cell.push(0);
+        };
+        assert_says(kind, cell, &["cell 8", "node 99", exists, "less than 15"]);
+        let force = Load::PointForce {
+            node: 99,
+            force: [1.0, 0.0, 0.0],
+        };
+        assert_says(
+            kind,
+            |b| b.loads = vec![force.clone()],
+            &["loads[0]", "node 99", exists],
+        );
+        let weight = Load::BodyForce {
+            cells: vec![8],
+            density: [1.0, 0.0, 0.0],
+        };
+        assert_says(
+            kind,
+            |b| b.loads = vec![weight.clone()],
+            &["loads[0]", "cell 8", exists],
+        );
+    }
+
+    #[test]
+    fn cells_must_fit_their_kind_and_the_dimension() {
+        let push = |b: &mut Body, kind, nodes: &[usize]| {
+            b.mesh.push_cell(kind, nodes);
+            b.material_of_cell.push(0);
+        };
+        let short = |b: &mut Body| push(b, CellKind::Quad4, &[0, 1, 2]);
+        assert_says(
+            CellKind::Quad4,
+            short,
+            &["cell 8 (quad4)", "expected 4", "found 3"],
+        );
+        let solid = |b: &mut Body| push(b, CellKind::Tet4, &[0, 1, 5, 6]);
+        assert_says(
+            CellKind::Quad4,
+            solid,
+            &["cell 8 (tet4)", "dimension 3", "expected 2"],
+        );
+        assert_says(
+            CellKind::Quad4,
+            |b| b.model = Model::Solid,
+            &["mesh", "expected 3"],
+        );
+        assert_says(
+            CellKind::Quad4,
+            |b| b.mesh = Mesh::new(2, vec![]),
+            &["cells: empty"],
+        );
+        assert_says(
+            CellKind::Quad4,
+            |b| b.mesh.nodes[4][2] = 0.1,
+            &["node 4[2]", "plane"],
+        );
+    }
+
+    #[test]
+    fn a_node_of_no_cell_is_named_with_its_position() {
+        let add = |b: &mut Body| b.mesh.nodes.push([7.0, 8.0, 0.0]);
+        assert_says(
+            CellKind::Tri3,
+            add,
+            &["block: node 15", "7.0", "8.0", "belongs to no cell"],
+        );
+    }
+
+    #[test]
+    fn impossible_materials_are_refused_by_name() {
+        let set = |poisson| {
+            move |b: &mut Body| {
+                b.materials[0] = Material {
+                    young: 1.0,
+                    poisson,
+                }
+            }
+        };
+        assert_says(
+            CellKind::Tri3,
+            set(0.5),
+            &["block: materials[0].poisson: 0.5", "< 0.5"],
+        );
+        let plate = |b: &mut Body| b.model = Model::PlaneStress { thickness: 0.0 };
+        assert_says(CellKind::Tri3, plate, &["model.thickness"]);
     }
 }

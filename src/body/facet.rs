@@ -69,9 +69,10 @@ fn bilinear(x: &[Vector3<f64>; MOST_NODES]) -> FacetGeometry {
         let area_vector = t1.cross(&t2) * point.weight;
         let area = area_vector.norm();
         geometry.area += area;
-        for node in 0..4 {
-            geometry.weights[node] += point.shape[node] * area;
-            vectors[node] += area_vector * point.shape[node];
+        let shares = geometry.weights.iter_mut().zip(&mut vectors);
+        for ((weight, vector), shape) in shares.zip(point.shape) {
+            *weight += shape * area;
+            *vector += area_vector * shape;
         }
     }
     geometry.normal = direction(vectors.iter().sum());

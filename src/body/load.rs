@@ -13,7 +13,7 @@ use super::{Body, Facet, Load};
 /// Nodal forces, in newton (plane strain: per metre of depth), entry `dimension · node + axis`.
 ///
 /// Facets run in outward order ([`Mesh::orient`](super::Mesh::orient)) and the body has
-/// passed [`check`](super::check).
+/// passed [`check`](super::check()).
 #[must_use]
 pub fn load_vector(body: &Body) -> Vec<f64> {
     let mut forces = NodalForces {

@@ -3,11 +3,19 @@
 //! ```text
 //! (B1)  ∫ ε(v) : C ε(u) dV = ∫ v · b dV + ∫ v · p dA + Σ v · P      for all v that vanish on the supports
 //! (B2)  K u = f + (contact and support reactions)
+//! (B3)  K_ab = λ A_ab + μ (A_abᵀ + tr A_ab I),   A_ab = ∫ ∇N_a ∇N_bᵀ dV        stiffness.rs
+//! (B4)  λ V ḡ_a ḡ_bᵀ,  (B5)  λ V_p b_pa b_pbᵀ    for λ A_ab where ν ≥ 0.45     dilatation.rs
+//! (B6)  f_a = ∫ N_a b dV + ∫ N_a p dA + P_a                                    load.rs
+//! (B7)  u(x) = a + ω × (x − c)                   what supports have to hold    rigid.rs
 //! ```
+//!
+//! In order: [`check`](check()), [`prescribed`], [`free_motion`], then [`stiffness`](stiffness())
+//! and [`load_vector`], and [`cell_stress`] of the displacement found.
 //!
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
 //! plane stress; every force below is for that depth.
 
+mod applied;
 mod boundary;
 mod cell;
 mod check;
@@ -16,6 +24,8 @@ mod facet;
 pub mod gmsh;
 mod incidence;
 mod load;
+#[cfg(test)]
+mod locking;
 mod material;
 pub mod mesh;
 mod quadrature;

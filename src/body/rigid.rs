@@ -5,9 +5,9 @@
 //! ```
 //!
 //! Each prescribed component is a row in the six numbers `(a, ω L)`, `L` being the size
-//! of the part and `c` its centre; the rows hold the part if they have full rank. The rank is found from these
-//! rows, by orthogonalising the largest remainder first, and not from pivots of the
-//! stiffness matrix: it does not depend on materials, refinement or units.
+//! of the part and `c` its centre; the rows hold the part if they have full rank. The
+//! rank is found from these rows, by orthogonalising the largest remainder first, and not
+//! from pivots of the stiffness matrix: it does not depend on materials, refinement or units.
 
 use std::fmt;
 
@@ -38,7 +38,9 @@ pub struct RigidMotion {
 /// A rigid motion that the prescribed components (as from
 /// [`prescribed`](super::prescribed())) leave free, if there is one.
 ///
-/// Every part of the mesh that shares no node with the rest has to be held on its own.
+/// Every part of the mesh that shares no node with the rest has to be held on its own. A
+/// part counts as one rigid body, also where a single node joins two pieces like a hinge.
+/// The body has passed [`check`](super::check()).
 #[must_use]
 pub fn free_motion(body: &Body, prescribed: &[Option<f64>]) -> Option<RigidMotion> {
     let parts = parts(body);

@@ -2,7 +2,9 @@
 
 #![allow(clippy::unwrap_used)]
 
-use super::{Body, CellKind, Facet, Group, Material, Mesh, Model, box_mesh, graded, rectangle};
+use super::{
+    Body, CellKind, Facet, Group, Material, Mesh, Model, Support, box_mesh, graded, rectangle,
+};
 
 /// A block of 2 × 1 (× 1) m with 4 × 2 (× 2) uneven cells, `E = 10 Pa`, `ν = 0.3`.
 pub(crate) fn block(kind: CellKind) -> Body {
@@ -59,6 +61,20 @@ pub(crate) fn facets(mesh: &Mesh, name: &str) -> Vec<Facet> {
     }
 }
 
+/// Holds one component of a named group's nodes at zero.
+pub(crate) fn hold(body: &mut Body, name: &str, axis: usize) {
+    let nodes = facets(&body.mesh, name)
+        .into_iter()
+        .flat_map(|facet| facet.nodes);
+    let mut displacement = [None; 3];
+    displacement[axis] = Some(0.0);
+    body.supports.push(Support {
+        place: name.to_owned(),
+        nodes: nodes.collect(),
+        displacement,
+    });
+}
+
 /// Solves `K u = f` for the components that are not prescribed, by a dense factorisation.
 pub(crate) fn solve(body: &Body) -> Vec<f64> {
     let stiffness = super::stiffness(body);
@@ -89,4 +105,19 @@ pub(crate) fn solve(body: &Body) -> Vec<f64> {
         displacement[*unknown] = solution[(at, 0)];
     }
     displacement
+}
+
+/// What `check` says about a block after a change.
+pub(crate) fn complaint(kind: CellKind, change: impl Fn(&mut Body)) -> String {
+    let mut body = block(kind);
+    change(&mut body);
+    match super::check(&body) {
+        Ok(()) => String::new(),
+        Err(error) => error.to_string(),
+    }
+}
+
+pub(crate) fn assert_says(kind: CellKind, change: impl Fn(&mut Body), parts: &[&str]) {
+    let found = complaint(kind, change);
+    assert!(parts.iter().all(|part| found.contains(part)), "{found}");
 }

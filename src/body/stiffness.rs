@@ -18,7 +18,7 @@ use super::sparsity::BlockMatrix;
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
 /// `dimension · node + axis` with ascending columns.
 ///
-/// The body has passed [`check`](super::check).
+/// The body has passed [`check`](super::check()).
 #[must_use]
 pub fn stiffness(body: &Body) -> sprs::CsMat<f64> {
     let mesh = &body.mesh;
@@ -92,8 +92,8 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::body::samples::{block, distorted, facets, solve};
-    use crate::body::{CellKind, Load, Model, Support};
+    use crate::body::samples::{block, distorted, facets, hold, solve};
+    use crate::body::{CellKind, Load, Model};
 
     /// Distorted blocks of every kind in every model, with and without averaged dilatation.
     fn bodies() -> Vec<Body> {
@@ -206,17 +206,7 @@ mod tests {
         let mut body = block(kind);
         let planes = [("left", 0), ("bottom", kind.dimension() - 1), ("front", 1)];
         for (name, axis) in planes.into_iter().take(kind.dimension()) {
-            let mut displacement = [None; 3];
-            displacement[axis] = Some(0.0);
-            let nodes = facets(&body.mesh, name)
-                .iter()
-                .flat_map(|f| f.nodes.clone())
-                .collect();
-            body.supports.push(Support {
-                place: name.to_owned(),
-                nodes,
-                displacement,
-            });
+            hold(&mut body, name, axis);
         }
         let facets = facets(&body.mesh, "right");
         body.loads = vec![Load::Pressure {
