@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use dpana::Status;
+use dpana::body;
 use dpana::report::replace_file;
 use dpana::scene::{self, Scene};
 
@@ -88,6 +89,14 @@ fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
 fn check(path: &Path) -> Result<ExitCode, Box<dyn Error>> {
     let scene = Scene::from_file(path)?;
     let mechanics = scene.mechanics()?;
+    for body in &mechanics.bodies {
+        if let Some(motion) = body::free_motion(body, &body::prescribed(body)?) {
+            return Err(Box::new(scene.locate(dpana::Error::FreeMotion {
+                body: body.name.clone(),
+                motion: motion.to_string(),
+            })));
+        }
+    }
     let mut out = io::stdout().lock();
     for body in &mechanics.bodies {
         writeln!(

@@ -20,6 +20,7 @@ pub struct SceneContact {
     /// What the surface may touch.
     pub obstacle: SceneObstacle,
     /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
+    #[schemars(range(min = 0))]
     pub friction: f64,
 }
 
@@ -39,6 +40,7 @@ pub enum SceneObstacle {
         /// Centre, in metre.
         center: Vec<f64>,
         /// Radius `> 0`, in metre.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
     /// Infinite circular cylinder, in 3D.
@@ -48,6 +50,7 @@ pub enum SceneObstacle {
         /// Direction of the axis; any length but zero.
         axis: Vec<f64>,
         /// Radius `> 0`, in metre.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
     /// Sphere, in 3D.
@@ -55,6 +58,7 @@ pub enum SceneObstacle {
         /// Centre, in metre.
         center: Vec<f64>,
         /// Radius `> 0`, in metre.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         radius: f64,
     },
 }

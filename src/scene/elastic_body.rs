@@ -21,6 +21,7 @@ pub struct SceneBody {
     /// Plane strain or plane stress, required in 2D; solid when left out in 3D.
     pub model: Option<SceneModel>,
     /// Its materials; together they cover every cell once.
+    #[schemars(length(min = 1))]
     pub materials: Vec<SceneMaterial>,
     /// Where its displacement is given.
     #[serde(default)]
@@ -43,6 +44,7 @@ pub enum SceneModel {
     /// 2D, no stress out of the plane.
     PlaneStress {
         /// Depth of the plate, `> 0`, in metre.
+        #[schemars(extend("exclusiveMinimum" = 0))]
         thickness: f64,
     },
     /// 3D.
@@ -56,8 +58,10 @@ pub struct SceneMaterial {
     /// Group of cells; all cells when left out, which only a single material may do.
     pub group: Option<String>,
     /// Young's modulus `E > 0`, in pascal.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub young: f64,
     /// Poisson's ratio, `-1 < ν < 0.5`.
+    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poisson: f64,
 }
 
@@ -82,6 +86,8 @@ impl SceneBody {
             supports,
             loads,
         };
+        body::check(&body)?;
+        body::prescribed(&body)?;
         Ok(body)
     }
 

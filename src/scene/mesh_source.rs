@@ -21,7 +21,7 @@ pub enum MeshSource {
         /// MSH 2.2 or 4.1 ASCII, relative to the scene's folder.
         file: PathBuf,
         /// Factor on all positions, such as 0.001 for a mesh in mm; 1 when left out.
-        #[schemars(default = "one")]
+        #[schemars(default = "one", extend("exclusiveMinimum" = 0))]
         scale: f64,
     },
     /// A rectangle of quadrilaterals or triangles.
@@ -164,9 +164,34 @@ impl MeshSource {
                 let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading)?;
                 box_mesh(&xs, &ys, &zs, kind).map_err(|error| error.within(place))
             }
-            Self::Given(mesh) => Ok(mesh.clone()),
+            Self::Given(mesh) => {
+                check_given(place, mesh)?;
+                Ok(mesh.clone())
+            }
         }
     }
+}
+
+/// Refuses a mesh on which facets and vectors could not even be looked up.
+fn check_given(place: &str, mesh: &Mesh) -> Result<(), Error> {
+    if !(2..=3).contains(&mesh.dimension) {
+        return Err(Error::OutOfRange {
+            place: format!("{place}.dimension"),
+            value: mesh.dimension as f64,
+            accepted: "2 or 3",
+        });
+    }
+    for (at, cell) in mesh.cells().enumerate() {
+        let (expected, found) = (cell.kind.node_count(), cell.nodes.len());
+        if expected != found {
+            return Err(Error::Length {
+                place: format!("{place}: cell {at}"),
+                expected,
+                found,
+            });
+        }
+    }
+    Ok(())
 }
 
 fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {
@@ -206,13 +231,6 @@ fn coordinates<const AXES: usize>(
     }
     let mut lines = std::array::from_fn(|_| Vec::new());
     for (at, (axis, [start, end])) in axes.into_iter().enumerate() {
-        if !(start < end) {
-            return Err(Error::NotAccepted {
-                place: format!("{place}.{axis}"),
-                found: format!("[{start}, {end}]"),
-                accepted: "the smaller number first".to_owned(),
-            });
-        }
         lines[at] = graded(start, end, cells[at], grading[at])
             .map_err(|error| error.within(format_args!("{place}, axis {axis}")))?;
     }

@@ -49,8 +49,10 @@ pub struct Scene {
     #[serde(default)]
     pub units: String,
     /// The elastic bodies; exactly one for now.
+    #[schemars(length(min = 1, max = 1))]
     pub bodies: Vec<SceneBody>,
     /// Where the bodies may touch obstacles; at least one.
+    #[schemars(length(min = 1))]
     pub contacts: Vec<SceneContact>,
     /// When the solve may stop.
     #[serde(default)]
@@ -66,8 +68,10 @@ pub struct Scene {
 #[serde(deny_unknown_fields, expecting = "an object of settings")]
 pub struct SceneSettings {
     /// Largest natural-map residual that counts as solved, from 1e-15 to 1e-2.
+    #[schemars(range(min = 1e-15, max = 1e-2))]
     pub tolerance: Option<f64>,
     /// Sweeps after which the solve gives up, at least 1.
+    #[schemars(range(min = 1))]
     pub max_sweeps: Option<usize>,
     /// Which outer loop runs; for study, from code only.
     #[serde(skip)]
@@ -195,4 +199,177 @@ fn read(place: &str, path: &Path) -> Result<Vec<u8>, Error> {
         file: path.display().to_string(),
         reason: error.to_string(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::{CellKind, Group, Load, Mesh, Model, rectangle};
+    use crate::condensation::Obstacle;
+
+    /// Two by two quads on a square of side 2 m, pressed on a line.
+    const SQUARE: &str = r#"{
+        "title": "square", "units": "m, N, Pa",
+        "bodies": [{
+            "name": "square",
+            "mesh": {"rectangle": {"x": [0, 2], "y": [0, 2], "cells": [2, 2]}},
+            "model": "plane_strain",
+            "materials": [{"young": 3, "poisson": 0.25}],
+            "supports": [
+                {"group": "right", "displacement": [0, null]},
+                {"at": [2, 0], "displacement": [null, 0.5]}
+            ],
+            "loads": [
+                {"pressure": 7, "group": "top"},
+                {"traction": [1, 2], "group": "left"},
+                {"body_force": [0, -9]},
+                {"point_force": [3, 4], "at": [1, 1]}
+            ]
+        }],
+        "contacts": [{
+            "group": "bottom", "friction": 0.5,
+            "obstacle": {"plane": {"point": [0, -1], "normal": [0, 1]}}
+        }],
+        "settings": {"max_sweeps": 7}
+    }"#;
+
+    #[test]
+    fn every_part_of_a_scene_reaches_the_mechanics() {
+        let Mechanics {
+            bodies,
+            contacts,
+            settings,
+        } = Scene::from_json(SQUARE, "").unwrap().mechanics().unwrap();
+        let (body, contact) = (&bodies[0], &contacts[0]);
+        assert_eq!(
+            (body.name.as_str(), body.model),
+            ("square", Model::PlaneStrain)
+        );
+        assert_eq!(body.material_of_cell, [0; 4]);
+        assert_eq!(
+            (body.materials[0].young, body.materials[0].poisson),
+            (3.0, 0.25)
+        );
+        // Node at column i and row j is number i + 3 j.
+        assert_eq!(body.supports[0].nodes, [2, 5, 8]);
+        assert_eq!(body.supports[0].displacement, [Some(0.0), None, None]);
+        assert_eq!(body.supports[1].place, "bodies[0].supports[1]");
+        assert_eq!(body.supports[1].nodes, [2]);
+        assert_eq!(body.supports[1].displacement, [None, Some(0.5), None]);
+        assert!(matches!(&body.loads[0], Load::Pressure { facets, pressure }
+            if facets.len() == 2 && *pressure == 7.0));
+        assert!(matches!(&body.loads[1], Load::Traction { facets, traction }
+            if facets.len() == 2 && *traction == [1.0, 2.0, 0.0]));
+        assert!(matches!(&body.loads[2], Load::BodyForce { cells, density }
+            if *cells == [0, 1, 2, 3] && *density == [0.0, -9.0, 0.0]));
+        assert!(matches!(&body.loads[3], Load::PointForce { node: 4, force }
+            if *force == [3.0, 4.0, 0.0]));
+        assert_eq!(
+            (contact.place.as_str(), contact.friction),
+            ("contacts[0]", 0.5)
+        );
+        assert_eq!(contact.facets.len(), 2);
+        let (point, normal) = ([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]);
+        assert_eq!(contact.obstacle, Obstacle::Plane { point, normal });
+        assert_eq!(settings.max_sweeps, 7);
+        assert_eq!(settings.tolerance, Settings::default().tolerance);
+    }
+
+    #[test]
+    fn a_scene_built_in_code_takes_a_mesh_built_in_code() {
+        let mut mesh = rectangle(&[0.0, 1.0, 3.0], &[0.0, 1.0], CellKind::Quad4).unwrap();
+        mesh.groups.insert("soft".into(), Group::Cells(vec![1]));
+        mesh.groups.insert("stiff".into(), Group::Cells(vec![0]));
+        let material = |group: &str, young| SceneMaterial {
+            group: Some(group.into()),
+            young,
+            poisson: 0.0,
+        };
+        let scene = Scene {
+            bodies: vec![SceneBody {
+                name: "bar".into(),
+                mesh: MeshSource::Given(mesh),
+                model: Some(SceneModel::PlaneStress { thickness: 0.1 }),
+                materials: vec![material("soft", 1.0), material("stiff", 2.0)],
+                supports: vec![],
+                loads: vec![],
+            }],
+            contacts: vec![SceneContact {
+                group: "bottom".into(),
+                body: Some("bar".into()),
+                obstacle: SceneObstacle::Circle {
+                    center: vec![0.0, -2.0],
+                    radius: 1.5,
+                },
+                friction: 0.0,
+            }],
+            ..Scene::default()
+        };
+        let mechanics = scene.mechanics().unwrap();
+        assert_eq!(mechanics.bodies[0].material_of_cell, [1, 0]);
+        assert_eq!(
+            mechanics.bodies[0].model,
+            Model::PlaneStress { thickness: 0.1 }
+        );
+        assert_eq!(
+            mechanics.contacts[0].obstacle,
+            Obstacle::Cylinder {
+                center: [0.0, -2.0, 0.0],
+                axis: [0.0, 0.0, 1.0],
+                radius: 1.5
+            }
+        );
+    }
+
+    #[test]
+    fn a_mesh_file_is_found_beside_the_scene_and_scaled() {
+        let scene = SQUARE
+            .replace(
+                r#"{"rectangle": {"x": [0, 2], "y": [0, 2], "cells": [2, 2]}}"#,
+                r#"{"file": "meshes/A_block_n32.msh", "scale": 0.001}"#,
+            )
+            .replace("\"right\"", "\"sym\"")
+            .replace("\"bottom\"", "\"contact\"")
+            .replace("\"at\": [2, 0]", "\"at\": [0.04, 0]")
+            .replace("\"at\": [1, 1]", "\"at\": [0.02, 0.02]");
+        let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/scene.json");
+        let mechanics = Scene::from_json(&scene, file).unwrap().mechanics().unwrap();
+        let mesh: &Mesh = &mechanics.bodies[0].mesh;
+        // 40 mm in 32 cells; the corner (40 mm, 0) is the last node of the lowest row.
+        assert_eq!(mesh.nodes.len(), 33 * 33);
+        assert_eq!(mechanics.bodies[0].supports[1].nodes, [32]);
+        assert!((mesh.nodes[32][0] - 0.04).abs() < 1e-15);
+        assert_eq!(mechanics.contacts[0].facets.len(), 32);
+    }
+
+    #[test]
+    fn the_schema_names_every_key_and_closes_every_object() {
+        let schema = schema();
+        let keys = |of: &serde_json::Value| {
+            let keys = of["properties"].as_object().unwrap().keys().cloned();
+            keys.collect::<Vec<_>>().join(" ")
+        };
+        assert_eq!(keys(&schema), "bodies contacts settings title units");
+        assert_eq!(schema["additionalProperties"], false);
+        let loads = schema["$defs"]["SceneLoad"]["anyOf"].as_array().unwrap();
+        let of_loads: Vec<_> = loads.iter().map(keys).collect();
+        assert_eq!(
+            of_loads,
+            [
+                "group pressure",
+                "group traction",
+                "body_force group",
+                "at point_force"
+            ]
+        );
+        assert!(
+            loads
+                .iter()
+                .all(|load| load["additionalProperties"] == false)
+        );
+        let meshes = schema["$defs"]["MeshSource"]["anyOf"].as_array().unwrap();
+        let of_meshes: Vec<_> = meshes.iter().map(keys).collect();
+        assert_eq!(of_meshes, ["file scale", "rectangle", "box"]);
+    }
 }

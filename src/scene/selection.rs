@@ -114,8 +114,7 @@ pub(super) fn node_at(mesh: &Mesh, place: &str, position: &[f64]) -> Result<usiz
             place: format!("{place}: nodes of the mesh"),
         });
     };
-    // Written so that a distance that is not a number is refused too.
-    if !(nearest <= tolerance) {
+    if nearest.is_nan() || nearest > tolerance {
         return Err(Error::NoNodeAt {
             place: place.to_owned(),
             position,
