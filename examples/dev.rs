@@ -6,31 +6,27 @@
     clippy::print_stdout,
     missing_docs
 )]
-use dpana::condensation::{ContactProblem, Operator};
+use dpana::condensation::*;
 use dpana::dpana::{Settings, Variant, solve};
+use dpana::scene::Scene;
 fn main() {
     let a: Vec<String> = std::env::args().collect();
-    let b = std::fs::read(&a[1]).unwrap();
-    let dim = i64::from_le_bytes(b[0..8].try_into().unwrap()) as usize;
-    let nc = i64::from_le_bytes(b[8..16].try_into().unwrap()) as usize;
-    let v: Vec<f64> = b[16..]
-        .chunks_exact(8)
-        .map(|c| f64::from_le_bytes(c.try_into().unwrap()))
-        .collect();
-    let n = nc * dim;
-    let (mu, r) = v.split_at(nc);
-    let (gap, r) = r.split_at(nc);
-    let (uh, g) = r.split_at(n);
-    let op = Operator::from_compliance(faer::Mat::from_fn(n, n, |i, j| g[i * n + j])).unwrap();
-    let p = ContactProblem::new(
-        &vec![dim - 1; nc],
-        mu.to_vec(),
-        gap.to_vec(),
-        uh.to_vec(),
-        op,
-    )
-    .unwrap();
-    for which in &a[2..] {
+    let n: usize = a[2].parse().unwrap();
+    let text = if a[1] == "cube" {
+        format!(
+            r#"{{"bodies":[{{"name":"c","mesh":{{"box":{{"x":[0,1],"y":[0,1],"z":[0,1],"cells":[{n},{n},{n}]}}}},"materials":[{{"young":1000,"poisson":0.3}}],"supports":[{{"group":"top","displacement":[0.0045,0,-0.01]}}]}}],"contacts":[{{"group":"bottom","obstacle":{{"plane":{{"point":[0,0,0],"normal":[0,0,1]}}}},"friction":0.3}}]}}"#
+        )
+    } else {
+        format!(
+            r#"{{"bodies":[{{"name":"c","mesh":{{"rectangle":{{"x":[0,0.04],"y":[0,0.04],"cells":[{n},{n}]}}}},"model":"plane_strain","materials":[{{"young":1.3e11,"poisson":0.2}}],"supports":[{{"group":"right","displacement":[0,null]}},{{"at":[0.04,0],"displacement":[null,0]}}],"loads":[{{"group":"top","pressure":5e7}},{{"group":"left","pressure":15e7}}]}}],"contacts":[{{"group":"bottom","obstacle":{{"plane":{{"point":[0,0],"normal":[0,1]}}}},"friction":1.0}}]}}"#
+        )
+    };
+    let s = Scene::from_json(&text, "x").unwrap();
+    let m = s.mechanics().unwrap();
+    let c = Condensed::new(&m.bodies[0], &m.contacts).unwrap();
+    let w = c.work();
+    println!("{:?}", w);
+    for which in &a[3..] {
         let (variant, max, tol) = match which.as_str() {
             "plain" => (Variant::Plain, 40, 1e-12),
             "nsgs" => (Variant::Nsgs, 20000, 1e-12),
@@ -39,7 +35,7 @@ fn main() {
         };
         let t = std::time::Instant::now();
         let o = solve(
-            &p,
+            c.problem(),
             &Settings {
                 tolerance: tol,
                 max_sweeps: max,
@@ -47,11 +43,10 @@ fn main() {
             },
         )
         .unwrap();
+        let dt = t.elapsed().as_secs_f64();
         println!(
             "{which}: {:?} residual {:.2e} {:.4} s",
-            o.status,
-            o.verdict.certificate.natural_map,
-            t.elapsed().as_secs_f64()
+            o.status, o.verdict.certificate.natural_map, dt
         );
         println!("  {:?}", o.work);
         if o.history.len() < 70 {
@@ -67,5 +62,13 @@ fn main() {
                 );
             }
         }
+        let t = std::time::Instant::now();
+        let u = c.recover(&o.reaction).unwrap();
+        let rec = t.elapsed().as_secs_f64();
+        println!(
+            "  recover {rec:.3} {} ratio {:.3}",
+            u.len(),
+            (w.condensation_seconds + dt + rec) / w.factorisation_seconds
+        );
     }
 }
