@@ -6,6 +6,12 @@ use crate::condensation::ContactProblem;
 /// A disc this much smaller than the largest is a point: its reaction is zero.
 const POINT: f64 = 1e-12;
 
+/// A contact without a cone may leave its disc by this many tolerances of the program.
+const SLACK: f64 = 10.0;
+
+/// A contact whose friction exceeds this part of its bound is near its disc.
+const NEAR: f64 = 0.8;
+
 /// (H2) for one problem; a working set that stays the same is set up once.
 ///
 /// ```text
@@ -49,28 +55,42 @@ impl<'a> FrictionHalfStep<'a> {
         let linear = self.problem.displacement(reaction);
         loop {
             let x = self.minimise(&linear, &bounds, roles, tolerance, &mut work)?;
-            let mut kept = true;
-            for contact in 0..self.problem.contacts() {
+            if self.give_back(&x, &bounds, roles, tolerance) {
+                continue;
+            }
+            for (contact, &bound) in bounds.iter().enumerate() {
                 let tangents = self.tangents(contact);
                 let size = norm(&x[tangents.clone()]);
-                if roles[contact] == Role::Free && size > bounds[contact] {
-                    roles[contact] = Role::Cone;
-                    kept = false;
-                }
-                // Clarabel may leave the disc by its tolerance.
-                let shrink = if size > bounds[contact] {
-                    bounds[contact] / size
-                } else {
-                    1.0
-                };
+                // The program, or a broken prediction, may leave the disc by its tolerance.
+                let shrink = if size > bound { bound / size } else { 1.0 };
                 for unknown in tangents {
                     reaction[unknown] = shrink * x[unknown];
                 }
             }
-            if kept {
-                return Some(work);
+            return Some(work);
+        }
+    }
+
+    /// If a contact without a cone left its disc, all that are near their discs get
+    /// their cones: leaving one at a time would cost a program each.
+    fn give_back(&self, x: &[f64], bounds: &[f64], roles: &mut [Role], tolerance: f64) -> bool {
+        let size = |contact: usize| norm(&x[self.tangents(contact)]);
+        let free: Vec<usize> = (0..roles.len())
+            .filter(|&i| roles[i] == Role::Free)
+            .collect();
+        let allowed = 1.0 + SLACK * tolerance;
+        if free
+            .iter()
+            .all(|&contact| size(contact) <= allowed * bounds[contact])
+        {
+            return false;
+        }
+        for contact in free {
+            if size(contact) > NEAR * bounds[contact] {
+                roles[contact] = Role::Cone;
             }
         }
+        true
     }
 
     /// `−μ t_N` per contact, in newton.
