@@ -242,28 +242,22 @@ fn the_cube_of_the_mesh_file_equals_newton_on_the_whole_body() {
 }
 
 #[test]
-fn four_tenths_of_the_surface_slip() {
-    // 39 % on fine meshes; with 8 cells per side one contact more or less is 1.6 %.
-    let totals = certified(&generated(8)).report().unwrap().totals;
-    assert!((totals.contact_area - 1.0).abs() < 1e-12 && totals.open == 0);
-    assert!((totals.slip_area - 0.39).abs() < 0.02, "{totals:?}");
-}
-
-#[test]
 #[ignore = "slow: seven sparse LU factorisations of 14,739 unknowns"]
 fn sixteen_cells_per_side_equal_newton_on_the_whole_body() {
     check_against_newton(&generated(16), "bottom");
 }
 
 #[test]
-#[ignore = "slow: a sparse LU factorisation of 46,875 unknowns"]
-fn with_twenty_four_cells_per_side_newton_on_the_whole_body_has_nothing_left_to_do() {
+#[ignore = "slow: 46,875 unknowns"]
+fn twenty_four_cells_per_side_satisfy_the_full_problem() {
+    // An LU factorisation would take 4 GB. The residual bounds the error: two digits are left for
+    // the ratio of the forces at a node, E h, to the stiffness of the whole cube, E.
     let solution = certified(&generated(24));
     let full = FullProblem::new(solution.body(), "bottom");
-    let found = solution.displacement();
-    assert!(full.relative_residual(found) <= 1e-10);
-    let expected = full.step(found);
-    assert!(full.relative_residual(&expected) <= 1e-10);
-    assert!(difference(found, &expected) < 1e-10);
-    assert!(difference(&full.forces(found), &full.forces(&expected)) < 1e-10);
+    let residual = full.relative_residual(solution.displacement());
+    assert!(residual <= 1e-12, "{residual:e}");
+    // It would see a contact that is off by a millionth of the top's motion.
+    let mut disturbed = solution.displacement().to_vec();
+    disturbed[3 * full.contacts[300]] += 1e-8;
+    assert!(full.relative_residual(&disturbed) > 1e-9);
 }
