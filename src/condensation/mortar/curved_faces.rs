@@ -1,0 +1,160 @@
+//! Checks on curved faces, where facets only approximate the surface.
+
+#![allow(clippy::unwrap_used)]
+
+use nalgebra::Vector3;
+
+use super::plane_faces::{Side, block, meet, shipped};
+use super::{Mortar, MortarNode};
+use crate::body::CellKind;
+
+/// Bends the block `0 ≤ x ≤ 1` to an arc of one radian, its height becoming the radius.
+fn bend(radius: f64, kind: CellKind) -> impl Fn([f64; 3]) -> [f64; 3] {
+    move |[x, y, z]| {
+        let angle = 0.5 - x;
+        if kind.dimension() == 2 {
+            let r = radius + y;
+            [r * angle.sin(), r * angle.cos(), 0.0]
+        } else {
+            let r = radius + z;
+            [r * angle.sin(), y, r * angle.cos()]
+        }
+    }
+}
+
+/// An arc of radius 2 + `gap` (side 1, seen from inside) around an arc of radius 2.
+fn arcs(kinds: [CellKind; 2], counts: [usize; 2], gap: f64) -> [Side; 2] {
+    // The mirrored angle keeps the cells' orientation only in the order of their nodes;
+    // the facets are turned with them.
+    let turned = |side: Side, kind| {
+        let mut side = side.moved(bend(2.0, kind));
+        for facet in &mut side.facets {
+            facet.nodes.reverse();
+        }
+        side
+    };
+    [
+        turned(block(kinds[0], counts[0], gap, "bottom"), kinds[0]),
+        turned(block(kinds[1], counts[1], -1.0, "top"), kinds[1]),
+    ]
+}
+
+const KINDS: [[CellKind; 2]; 4] = [
+    [CellKind::Quad4; 2],
+    [CellKind::Tri3; 2],
+    [CellKind::Hex8; 2],
+    [CellKind::Tet4, CellKind::Hex8],
+];
+
+/// Worst error of a gap that should be `expected` at every node that is wholly covered.
+fn worst_error(mortar: &Mortar, expected: impl Fn(&MortarNode) -> f64) -> f64 {
+    let inner = mortar.nodes.iter().filter(|node| node.covered > 0.999);
+    inner
+        .map(|node| (node.initial_gap - expected(node)).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn the_gap_between_concentric_arcs_converges_at_second_order() {
+    for kinds in KINDS {
+        for gap in [0.0, 0.3] {
+            let error = |n: usize| {
+                let mortar = meet(&arcs(kinds, [7 * n, 5 * n], gap)).unwrap();
+                assert!(mortar.nodes.len() > 7 * n);
+                worst_error(&mortar, |_| gap)
+            };
+            let errors = [error(1), error(2), error(4)];
+            let rates = [errors[0] / errors[1], errors[1] / errors[2]];
+            assert!(
+                rates.iter().all(|rate| *rate > 3.0),
+                "{kinds:?} {gap} {errors:?}"
+            );
+            assert!(errors[2] < 1e-3, "{kinds:?} {gap} {errors:?}");
+        }
+    }
+}
+
+#[test]
+fn normal_forces_on_curved_faces_balance_in_force_and_moment() {
+    for kinds in KINDS {
+        let sides = arcs(kinds, [7, 5], 0.05);
+        let mortar = meet(&sides).unwrap();
+        for node in mortar.nodes {
+            // A unit reaction along the normal at x_i, the opposite ones at x²_k.
+            let normal = Vector3::from(node.normal);
+            let x = Vector3::from(sides[0].mesh.nodes[node.node]);
+            let mut force = normal;
+            let mut moment = x.cross(&normal);
+            for (across, weight) in &node.opposite {
+                force -= normal * *weight;
+                moment -= Vector3::from(sides[1].mesh.nodes[*across]).cross(&normal) * *weight;
+            }
+            assert!(
+                force.norm() < 1e-14 && moment.norm() < 1e-13,
+                "{kinds:?} {moment}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_rigid_motion_of_both_sides_opens_no_contact() {
+    for kinds in KINDS {
+        let sides = arcs(kinds, [7, 5], 0.05);
+        let (shift, spin) = (Vector3::new(0.3, -1.0, 0.2), Vector3::new(0.0, 0.0, 0.7));
+        let moved = |x: [f64; 3]| shift + spin.cross(&Vector3::from(x));
+        for node in meet(&sides).unwrap().nodes {
+            let mut relative = moved(sides[0].mesh.nodes[node.node]);
+            for (across, weight) in &node.opposite {
+                relative -= moved(sides[1].mesh.nodes[*across]) * *weight;
+            }
+            assert!(relative.dot(&node.normal.into()).abs() < 1e-13, "{kinds:?}");
+        }
+    }
+}
+
+#[test]
+fn the_gap_of_a_cylinder_on_a_flat_converges_at_second_order() {
+    // Side 1 bent to the circle of radius 2 about (0, 2); from (x, y) on it the flat y = 0 is
+    // y / cos θ away along the radius, θ the angle from the lowest point.
+    let error = |n: usize| {
+        let kinds = [CellKind::Quad4; 2];
+        let lift = |[x, y, z]: [f64; 3]| {
+            let (angle, r) = (x - 0.5, 2.0 - y);
+            [r * angle.sin(), 2.0 - r * angle.cos(), z]
+        };
+        let one = block(kinds[0], 9 * n, 0.0, "bottom").moved(lift);
+        let flat = |[x, y, z]: [f64; 3]| [4.0 * x - 2.0, y, z];
+        let two = block(kinds[1], 7 * n, -1.0, "top").moved(flat);
+        let nodes = one.mesh.nodes.clone();
+        let mortar = meet(&[one, two]).unwrap();
+        assert_eq!(mortar.nodes.len(), 9 * n + 1);
+        worst_error(&mortar, |node| {
+            let [x, y, _] = nodes[node.node];
+            y / (x / 2.0).asin().cos()
+        })
+    };
+    let errors = [error(1), error(2), error(4)];
+    assert!(
+        errors[0] / errors[1] > 3.5 && errors[1] / errors[2] > 3.5,
+        "{errors:?}"
+    );
+}
+
+#[test]
+fn the_shipped_parabola_sees_the_flat_below_it() {
+    // y = x²/(2R), R = 100 mm, over the flat y = 0; the slope is x/R, up to 0.2 at the rim.
+    let sides = shipped("B2_mindlin_n16");
+    let mortar = meet(&sides).unwrap();
+    let count = |side: &Side| side.facets.len() + 1;
+    assert_eq!(mortar.nodes.len(), count(&sides[0]));
+    for node in &mortar.nodes {
+        let [x, y, _] = sides[0].mesh.nodes[node.node];
+        assert!((y - x * x / 200.0).abs() < 1e-9);
+        let along_normal = y * (x / 100.0).hypot(1.0);
+        assert!(
+            (node.initial_gap - along_normal).abs() < 2e-3 * y + 1e-9,
+            "{x} {y} {node:?}"
+        );
+    }
+}

@@ -1,0 +1,208 @@
+//! A facet's own plane, and how other facets look when they are projected onto it.
+//!
+//! ```text
+//! y = (e_1 · (x − o), e_2 · (x − o)) / a        o: centre, a: size of the facet
+//! h = m · (x − o) / a                           m: mean outward normal = e_1 × e_2
+//! ```
+//!
+//! A line of a plane body is a strip along z, as deep as the facet is long, so that
+//! plane and solid bodies share one clipping and one quadrature.
+//!
+//! The bilinear map is inverted in closed form: with `y = a + b ξ + c η + d ξη` and
+//! `h = y − a`, `η` solves `h×b + (h×d + b×c) η + (d×c) η² = 0`, of whose roots the one
+//! inside the facet has a derivative of the sign of `b×c`.
+
+use nalgebra::Vector3;
+
+use super::polygon::{Point, Polygon, cross};
+use crate::body::{Facet, Mesh};
+
+/// The plane of a facet.
+pub(super) struct View {
+    origin: Vector3<f64>,
+    axes: [Vector3<f64>; 2],
+    pub(super) normal: Vector3<f64>,
+    /// Length that counts as one in the plane, in metre.
+    pub(super) size: f64,
+}
+
+impl View {
+    /// The plane of a facet with an extent; `normal` is the facet's.
+    pub(super) fn new(mesh: &Mesh, facet: &Facet, normal: [f64; 3]) -> Self {
+        let corner = |index: usize| Vector3::from(mesh.nodes[facet.nodes[index]]);
+        let count = facet.nodes.len();
+        let origin = (0..count).map(corner).sum::<Vector3<f64>>() / count as f64;
+        let normal = Vector3::from(normal);
+        let along = corner(1) - corner(0);
+        let first = (along - normal * normal.dot(&along)).normalize();
+        let radius = |index| (corner(index) - origin).norm();
+        Self {
+            origin,
+            axes: [first, normal.cross(&first)],
+            normal,
+            size: 2.0 * (0..count).map(radius).fold(0.0, f64::max),
+        }
+    }
+
+    /// Area of a facet that has the area one in the plane, in m² (2D: in metre).
+    pub(super) fn unit_area(&self, dimension: usize) -> f64 {
+        if dimension == 2 {
+            self.size
+        } else {
+            self.size * self.size
+        }
+    }
+
+    /// Least and greatest coordinate of a box in space along axis 0, 1 or the normal (2).
+    pub(super) fn extent(&self, low: [f64; 3], high: [f64; 3], axis: usize) -> [f64; 2] {
+        let direction = match axis {
+            2 => self.normal,
+            _ => self.axes[axis],
+        };
+        let (low, high) = (Vector3::from(low), Vector3::from(high));
+        let centre = direction.dot(&((low + high) / 2.0 - self.origin));
+        let half = direction.abs().dot(&((high - low) / 2.0));
+        [(centre - half) / self.size, (centre + half) / self.size]
+    }
+
+    /// A facet, projected onto the plane.
+    pub(super) fn outline(&self, mesh: &Mesh, facet: &Facet) -> Outline {
+        let mut outline = Outline {
+            nodes: facet.nodes.len(),
+            corners: [Point::zeros(); 4],
+            heights: [0.0; 4],
+        };
+        for (index, node) in facet.nodes.iter().enumerate() {
+            let offset = (Vector3::from(mesh.nodes[*node]) - self.origin) / self.size;
+            outline.corners[index] = self.axes.map(|axis| axis.dot(&offset)).into();
+            outline.heights[index] = self.normal.dot(&offset);
+        }
+        outline
+    }
+
+    /// A vector given by its coordinates in the plane and along the normal.
+    pub(super) fn vector(&self, coordinates: [f64; 3]) -> Vector3<f64> {
+        let [x, y, z] = coordinates;
+        self.axes[0] * x + self.axes[1] * y + self.normal * z
+    }
+}
+
+/// A facet in the plane of another one.
+#[derive(Clone, Copy)]
+pub(super) struct Outline {
+    nodes: usize,
+    corners: [Point; 4],
+    heights: [f64; 4],
+}
+
+impl Outline {
+    /// The area it covers, counter-clockwise.
+    pub(super) fn polygon(&self) -> Polygon {
+        if self.nodes == 2 {
+            let ends = [self.corners[0].x, self.corners[1].x];
+            let [left, right] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            return [(left, 0.0), (right, 0.0), (right, 1.0), (left, 1.0)]
+                .map(|(x, y)| Point::new(x, y))
+                .to_vec();
+        }
+        let mut polygon = self.corners[..self.nodes].to_vec();
+        if super::polygon::area(&polygon) < 0.0 {
+            polygon.reverse();
+        }
+        polygon
+    }
+
+    /// Least sine-like turn at a corner, relative to the facet's size squared and positive
+    /// when all corners turn the way of `orientation`, 1 or −1; a line has its length.
+    pub(super) fn least_turn(&self, orientation: f64) -> f64 {
+        let corner = |index: usize| self.corners[index % self.nodes];
+        if self.nodes == 2 {
+            return orientation * (corner(1).x - corner(0).x);
+        }
+        let turn = |index| {
+            let (here, next) = (corner(index + 1), corner(index + 2));
+            orientation * cross(here - corner(index), next - here)
+        };
+        (0..self.nodes).map(turn).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Values of the facet's shape functions at a point of the plane.
+    pub(super) fn shape(&self, at: Point) -> [f64; 4] {
+        let [a, b, c, _] = self.corners;
+        match self.nodes {
+            2 => {
+                let along = (at.x - a.x) / (b.x - a.x);
+                [1.0 - along, along, 0.0, 0.0]
+            }
+            3 => {
+                let twice = cross(b - a, c - a);
+                let second = cross(at - a, c - a) / twice;
+                let third = cross(b - a, at - a) / twice;
+                [1.0 - second - third, second, third, 0.0]
+            }
+            _ => {
+                let [xi, eta] = self.reference(at);
+                let factors = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+                factors.map(|(x, y)| (1.0 + x * xi) * (1.0 + y * eta) / 4.0)
+            }
+        }
+    }
+
+    /// Height above the plane, where the facet lies over a point of it.
+    pub(super) fn height(&self, shape: &[f64; 4]) -> f64 {
+        self.heights.iter().zip(shape).map(|(h, n)| h * n).sum()
+    }
+
+    /// The facet's area vector over a unit of the plane, in the plane's axes: `(−∇h, 1)`.
+    pub(super) fn area_vector(&self, at: Point) -> [f64; 3] {
+        if self.nodes < 4 {
+            return [0.0, 0.0, 1.0];
+        }
+        let [xi, eta] = self.reference(at);
+        let [_, b, c, d] = bilinear(self.corners);
+        let [_, rise_b, rise_c, rise_d] = bilinear(self.heights.map(|h| Point::new(h, 0.0)));
+        let (t1, t2) = (b + d * eta, c + d * xi);
+        let (rise_1, rise_2) = (rise_b.x + rise_d.x * eta, rise_c.x + rise_d.x * xi);
+        let normal = cross(t1, t2);
+        [
+            (t1.y * rise_2 - rise_1 * t2.y) / normal,
+            (rise_1 * t2.x - t1.x * rise_2) / normal,
+            1.0,
+        ]
+    }
+
+    /// How far the Jacobian varies over the facet, of its mean: 0 for a parallelogram,
+    /// 1 where a quadrilateral folds.
+    pub(super) fn distortion(&self) -> f64 {
+        if self.nodes < 4 {
+            return 0.0;
+        }
+        let [_, b, c, d] = bilinear(self.corners);
+        (cross(b, d).abs() + cross(d, c).abs()) / cross(b, c).abs()
+    }
+
+    /// Reference position of the quadrilateral's point above a point of the plane.
+    fn reference(&self, at: Point) -> [f64; 2] {
+        let [a, b, c, d] = bilinear(self.corners);
+        let offset = at - a;
+        let orientation = cross(b, c).signum();
+        let k0 = orientation * cross(offset, b);
+        let k1 = orientation * (cross(offset, d) + cross(b, c));
+        let k2 = orientation * cross(d, c);
+        let root = (k1 * k1 - 4.0 * k0 * k2).max(0.0).sqrt();
+        // Two forms of one root: the first has no cancellation when k1 > 0, nor a division by k2 = 0.
+        let eta = if k1 >= 0.0 {
+            -2.0 * k0 / (k1 + root)
+        } else {
+            (root - k1) / (2.0 * k2)
+        };
+        let along = b + d * eta;
+        [(offset - c * eta).dot(&along) / along.norm_squared(), eta]
+    }
+}
+
+/// Coefficients of `1, ξ, η, ξη`.
+fn bilinear(corners: [Point; 4]) -> [Point; 4] {
+    let [p, q, r, s] = corners.map(|corner| corner / 4.0);
+    [p + q + r + s, q + r - p - s, r + s - p - q, p + r - q - s]
+}
