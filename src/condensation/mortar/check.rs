@@ -52,7 +52,7 @@ fn geometry(mesh: &Mesh, facet: &Facet, place: &str) -> Result<FacetGeometry, Er
     if !(geometry.area > 0.0 && geometry.area.is_finite()) || geometry.normal == [0.0; 3] {
         return Err(refuse(facet, place, "without area"));
     }
-    let view = View::new(mesh, facet, geometry.normal);
+    let view = View::new(mesh, facet);
     if view.outline(mesh, facet).least_turn(1.0) > FLAT {
         Ok(geometry)
     } else {

@@ -51,7 +51,7 @@ pub fn couple(
     let mut gathered = Gathered::default();
     let mut averted = 0;
     for (facet, geometry) in facets1.iter().zip(&geometries1) {
-        let view = View::new(mesh1, facet, geometry.normal);
+        let view = View::new(mesh1, facet);
         let outline = view.outline(mesh1, facet);
         let (parts, turned) = opposite.parts(&view, &outline);
         averted += turned;

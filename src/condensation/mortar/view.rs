@@ -27,14 +27,21 @@ pub(super) struct View {
 }
 
 impl View {
-    /// The plane of a facet with an extent; `normal` is the facet's.
-    pub(super) fn new(mesh: &Mesh, facet: &Facet, normal: [f64; 3]) -> Self {
+    /// The plane of a facet; one without area has no directions (zeros), so that nothing in it turns.
+    pub(super) fn new(mesh: &Mesh, facet: &Facet) -> Self {
         let corner = |index: usize| Vector3::from(mesh.nodes[facet.nodes[index]]);
         let count = facet.nodes.len();
         let origin = (0..count).map(corner).sum::<Vector3<f64>>() / count as f64;
-        let normal = Vector3::from(normal);
+        // From differences of positions alone: far away, a tilt by round-off would shift the view.
+        let normal = match count {
+            2 => (corner(1) - corner(0)).cross(&Vector3::z()),
+            3 => (corner(1) - corner(0)).cross(&(corner(2) - corner(0))),
+            _ => (corner(2) - corner(0)).cross(&(corner(3) - corner(1))),
+        };
+        let direction = |vector: Vector3<f64>| vector.try_normalize(0.0).unwrap_or_default();
+        let normal = direction(normal);
         let along = corner(1) - corner(0);
-        let first = (along - normal * normal.dot(&along)).normalize();
+        let first = direction(along - normal * normal.dot(&along));
         let radius = |index| (corner(index) - origin).norm();
         Self {
             origin,
