@@ -85,7 +85,8 @@ pub enum Error {
     #[error(
         "{place}: none of the {facets} facets faces any of the {opposite} facets of the other side \
          ({averted} pairs lie over each other but look the same way); expected outward normals that \
-         point towards each other, within 60 degrees, and an overlap of the two sides along them"
+         point towards each other, within 60 degrees, facets that cover each other along them, and \
+         an interference of at most half the extent of the first side"
     )]
     NothingFacesOpposite {
         /// The contact pair, such as `contacts[0]`.

@@ -46,11 +46,10 @@ pub(super) fn align(
     }
     let multiplier = solve(spread, stray);
     let changes = offsets.iter().map(|offset| -offset.dot(&multiplier));
-    if changes.clone().any(|change| !(change.abs() <= LARGEST)) {
-        return;
-    }
-    for ((_, weight), change) in weights.iter_mut().zip(changes) {
-        *weight += change;
+    if changes.clone().all(|change| change.abs() <= LARGEST) {
+        for ((_, weight), change) in weights.iter_mut().zip(changes) {
+            *weight += change;
+        }
     }
 }
 
@@ -80,4 +79,61 @@ fn tangents(normal: Vector3<f64>, dimension: usize) -> [Vector3<f64>; 2] {
     least[normal.abs().imin()] = 1.0;
     let first = normal.cross(&least).normalize();
     [first, normal.cross(&first)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [[f64; 3]; 4] = [
+        [0.0, 0.0, 0.3],
+        [1.0, 0.0, 0.3],
+        [1.0, 1.0, 0.3],
+        [0.0, 1.0, 0.3],
+    ];
+
+    fn stray(weights: &[(usize, f64)], from: Vector3<f64>, normal: Vector3<f64>) -> Vector3<f64> {
+        let terms = weights.iter();
+        let gap: Vector3<f64> = terms
+            .map(|(k, weight)| (Vector3::from(SQUARE[*k]) - from) * *weight)
+            .sum();
+        gap - normal * normal.dot(&gap)
+    }
+
+    #[test]
+    fn a_force_beside_its_reaction_is_brought_onto_one_line() {
+        // Equal weights act at (½, ½); the node is at (0.52, 0.47).
+        let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
+        let (from, normal) = (Vector3::new(0.52, 0.47, 0.0), Vector3::z());
+        align(&mut weights, &SQUARE, from.into(), normal, 3);
+        assert!(stray(&weights, from, normal).norm() < 1e-16);
+        assert!((weights.iter().map(|entry| entry.1).sum::<f64>() - 1.0).abs() < 1e-15);
+        // Least change: δ = ±½ · (0.02, −0.03) along x and y.
+        assert!(
+            (weights[0].1 - 0.25 + 0.01 - 0.015).abs() < 1e-15,
+            "{weights:?}"
+        );
+    }
+
+    #[test]
+    fn nodes_on_one_line_take_what_they_can() {
+        let mut weights = [(0, 0.5), (1, 0.5)];
+        let (from, normal) = (Vector3::new(0.52, 0.03, 0.0), Vector3::z());
+        align(&mut weights, &SQUARE, from.into(), normal, 3);
+        let left = stray(&weights, from, normal);
+        assert!(
+            (left - Vector3::new(0.0, -0.03, 0.0)).norm() < 1e-15,
+            "{left}"
+        );
+    }
+
+    #[test]
+    fn weights_far_beside_the_line_stay() {
+        let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
+        align(&mut weights, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), 3);
+        assert_eq!(weights, [0, 1, 2, 3].map(|k| (k, 0.25)));
+        let mut one = [(2, 1.0)];
+        align(&mut one, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), 3);
+        assert_eq!(one, [(2, 1.0)]);
+    }
 }

@@ -126,7 +126,7 @@ impl Share {
         mesh2: &Mesh,
         place: &str,
     ) -> Result<Option<MortarNode>, Error> {
-        if !(self.weight > VANISHING * self.support) {
+        if self.weight <= VANISHING * self.support {
             return Ok(None);
         }
         let Some(normal) = self.vector.try_normalize(VANISHING * self.weight) else {

@@ -239,7 +239,7 @@ fn a_small_block_on_a_large_one_presses_evenly() {
         let angle = if kinds[0].dimension() == 2 {
             0.0
         } else {
-            0.5236
+            std::f64::consts::FRAC_PI_6
         };
         let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
         let [one, two] = stack(kinds, counts, 0.0);
@@ -340,6 +340,60 @@ fn of_several_layers_the_nearest_is_met() {
         let taken: f64 = taken.sum();
         assert!((taken - 0.5).abs() < 1e-13, "{kind:?} {taken}");
     }
+}
+
+#[test]
+fn what_lies_far_behind_a_face_is_not_met() {
+    // A second body whose top is 5 above the face, seen through body 1; the first one, moved by
+    // 0.4, covers 0.6 of the face and nothing else does.
+    for kinds in [[CellKind::Quad4; 2], [CellKind::Hex8; 2]] {
+        let [one, two] = stack(kinds, [4, 3], 0.0);
+        let two = two.moved(|[x, y, z]| [x + 0.4, y, z]);
+        let mortar = meet(&[one, join(two, &block(kinds[1], 3, 4.0, "top"))]).unwrap();
+        assert!((weight(&mortar) - 0.6).abs() < 1e-14);
+        assert!(worst_gap(&mortar, Vector3::zeros()) < 1e-14);
+    }
+}
+
+#[test]
+fn overlap_is_a_negative_gap_down_to_half_the_extent_of_the_face() {
+    for (kinds, reach) in [
+        ([CellKind::Quad4; 2], 0.5),
+        ([CellKind::Hex8; 2], 0.5_f64.sqrt()),
+    ] {
+        let mortar = meet(&stack(kinds, [4, 3], 0.01 - reach)).unwrap();
+        let off = |node: &MortarNode| (node.initial_gap - 0.01 + reach).abs();
+        assert!(mortar.nodes.iter().all(|node| off(node) < 1e-15));
+        let found = meet(&stack(kinds, [4, 3], -0.01 - reach)).unwrap_err();
+        assert!(matches!(found, Error::NothingFacesOpposite { .. }));
+    }
+}
+
+#[test]
+fn a_sheet_that_faces_both_ways_has_no_normal() {
+    // Both sides of one line, between a flat below and a flat above.
+    let nodes = vec![
+        [0.0; 3],
+        [1.0, 0.0, 0.0],
+        [0.0, -1.0, 0.0],
+        [1.0, -1.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 1.0, 0.0],
+    ];
+    let mesh = Mesh::new(2, nodes);
+    let line = |nodes: [usize; 2]| Facet {
+        nodes: nodes.to_vec(),
+    };
+    let (sheet, flats) = ([line([0, 1]), line([1, 0])], [line([3, 2]), line([4, 5])]);
+    let found = couple(&mesh, &sheet, &mesh, &flats, "contacts[0]").unwrap_err();
+    assert!(matches!(found, Error::Direction { .. }), "{found}");
+    assert_eq!(
+        couple(&mesh, &sheet[..1], &mesh, &flats, "contacts[0]")
+            .unwrap()
+            .nodes
+            .len(),
+        2
+    );
 }
 
 /// Two bodies as one side.

@@ -47,9 +47,8 @@ impl Projection {
                 4 => points_for(facet.distortion().max(part.outline.distortion())),
                 _ => LINEAR,
             };
-            let unit = view.unit_area(if nodes == 2 { 2 } else { 3 });
             integrate(&part.polygon, points, |at, share| {
-                let vector = view.vector(facet.area_vector(at)) * (share * unit);
+                let vector = view.vector(facet.area_vector(at)) * (share * view.unit);
                 let area = vector.norm();
                 let (here, there) = (facet.shape(at), part.outline.shape(at));
                 for i in 0..nodes {
@@ -149,6 +148,88 @@ impl Factor {
         }
         for (entry, scale) in column.iter_mut().zip(self.scale) {
             *entry *= scale;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `M` and `D` of a line whose covered part is `[from, to]` of its length one.
+    fn line(from: f64, to: f64) -> ([[f64; 4]; 4], [f64; 2]) {
+        // ∫ x^k over the part; N = (1 − x, x).
+        let moment = |k: i32| (to.powi(k + 1) - from.powi(k + 1)) / f64::from(k + 1);
+        let (one, x, xx) = (moment(0), moment(1), moment(2));
+        let mut mass = [[0.0; 4]; 4];
+        mass[0][..2].copy_from_slice(&[one - 2.0 * x + xx, x - xx]);
+        mass[1][..2].copy_from_slice(&[x - xx, xx]);
+        (mass, [one - x, x])
+    }
+
+    #[test]
+    fn dual_functions_of_a_whole_line_are_those_of_the_books() {
+        // ψ = D M⁻¹ N with D = ½, M = 1/6 [[2, 1], [1, 2]]: ψ_1 = 2 N_1 − N_2, ψ_2 = 2 N_2 − N_1.
+        let (mass, areas) = line(0.0, 1.0);
+        let factor = Factor::new(2, mass).map(|factor| {
+            [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]].map(|mut column| {
+                factor.solve(&mut column);
+                [areas[0] * column[0], areas[1] * column[1]]
+            })
+        });
+        let expected = [[2.0, -1.0], [-1.0, 2.0]];
+        for (row, expected) in factor
+            .into_iter()
+            .flatten()
+            .flatten()
+            .zip(expected.iter().flatten())
+        {
+            assert!((row - expected).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn dual_functions_are_biorthogonal_over_whatever_is_covered() {
+        // ∫ ψ_i N_j = Σ_k A_ik M_kj = δ_ij D_i, column by column: M⁻¹ applied to those of M.
+        for (from, to) in [
+            (0.0, 1.0),
+            (0.2, 0.9),
+            (0.0, 1e-5),
+            (0.999, 1.0),
+            (0.5, 0.501),
+        ] {
+            let (mass, areas) = line(from, to);
+            let factor = Factor::new(2, mass);
+            assert!(factor.is_some());
+            for (j, column) in mass.iter().enumerate().take(2) {
+                let mut column = *column;
+                if let Some(factor) = &factor {
+                    factor.solve(&mut column);
+                }
+                for (i, area) in areas.iter().enumerate() {
+                    let expected = if i == j { *area } else { 0.0 };
+                    let off = (area * column[i] - expected).abs();
+                    assert!(off < 1e-8 * (to - from), "{from} {to} {off:e}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_like_a_point_gives_all_nodes_its_mean() {
+        // Covered [½, ½ + 1e-9]: one value is all it tells; side 2 is 30 % node 4, 70 % node 9.
+        let (mass, areas) = line(0.5, 0.5 + 1e-9);
+        assert!(Factor::new(2, mass).is_none());
+        let share = |part: f64| [areas[0] * part, areas[1] * part, 0.0, 0.0];
+        let mut projection = Projection {
+            areas: [areas[0], areas[1], 0.0, 0.0],
+            columns: vec![(4, share(0.3)), (9, share(0.7))],
+            ..Projection::default()
+        };
+        projection.solve(2, mass);
+        for (row, expected) in [(0, 0.3), (1, 0.7)] {
+            let (_, column) = projection.columns[row];
+            assert!((column[0] - expected).abs() < 1e-15 && column[0] == column[1]);
         }
     }
 }

@@ -163,3 +163,65 @@ impl Tree {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::body::{CellKind, box_mesh, graded};
+
+    /// All boundary facets of a box, bent so that no two of them are parallel.
+    fn bent() -> (Mesh, Vec<Facet>) {
+        let along = graded(0.0, 1.0, 9, 3.0).unwrap();
+        let mut mesh = box_mesh(&along, &along, &[0.0, 0.1], CellKind::Tet4).unwrap();
+        for [x, y, z] in &mut mesh.nodes {
+            *z += 0.5 * x.hypot(*y);
+        }
+        let facets = mesh.boundary_facets();
+        (mesh, facets)
+    }
+
+    #[test]
+    fn the_tree_finds_whatever_stands_over_a_facet() {
+        let (mesh, facets) = bent();
+        let tree = Tree::new(&mesh, &facets);
+        for facet in &facets {
+            let view = View::new(&mesh, facet);
+            let polygon = view.outline(&mesh, facet).polygon();
+            let prism = Prism::new(&view, &polygon, 0.05);
+            let mut found = tree.over(&prism);
+            assert!(found.len() < facets.len() / 2);
+            found.sort_unstable();
+            // What only touches the prism may be missed by round-off: look at a slimmer one.
+            let slim: Vec<Point> = polygon.iter().map(|corner| corner * (1.0 - 1e-9)).collect();
+            let slim = Prism::new(&view, &slim, 0.05);
+            for (index, other) in facets.iter().enumerate() {
+                let bounds = Bounds::around(&mesh, [other].into_iter());
+                assert!(!slim.meets(&bounds) || found.binary_search(&index).is_ok());
+            }
+        }
+    }
+
+    #[test]
+    fn only_what_is_too_deep_behind_a_facet_is_left_out() {
+        // A triangle that looks up, and others at heights −2, −1 and 1000.
+        let at = |z: f64| [[0.0, 0.0, z], [1.0, 0.0, z], [0.0, 1.0, z]];
+        let mesh = Mesh::new(
+            3,
+            [0.0, -2.0, -1.0, 1000.0].into_iter().flat_map(at).collect(),
+        );
+        let facet = |first: usize| Facet {
+            nodes: (3 * first..3 * first + 3).collect(),
+        };
+        let facets: Vec<Facet> = (0..4).map(facet).collect();
+        let view = View::new(&mesh, &facets[0]);
+        let polygon = view.outline(&mesh, &facets[0]).polygon();
+        let prism = Prism::new(&view, &polygon, 1.5);
+        let bounds = facets
+            .iter()
+            .map(|f| Bounds::around(&mesh, [f].into_iter()));
+        let met: Vec<bool> = bounds.map(|bounds| prism.meets(&bounds)).collect();
+        assert_eq!(met, [true, false, true, true]);
+    }
+}

@@ -24,6 +24,8 @@ pub(super) struct View {
     pub(super) normal: Vector3<f64>,
     /// Length that counts as one in the plane, in metre.
     pub(super) size: f64,
+    /// What counts as one of area in the plane, in m² (2D: in metre).
+    pub(super) unit: f64,
 }
 
 impl View {
@@ -43,20 +45,13 @@ impl View {
         let along = corner(1) - corner(0);
         let first = direction(along - normal * normal.dot(&along));
         let radius = |index| (corner(index) - origin).norm();
+        let size = 2.0 * (0..count).map(radius).fold(0.0, f64::max);
         Self {
             origin,
             axes: [first, normal.cross(&first)],
             normal,
-            size: 2.0 * (0..count).map(radius).fold(0.0, f64::max),
-        }
-    }
-
-    /// Area of a facet that has the area one in the plane, in m² (2D: in metre).
-    pub(super) fn unit_area(&self, dimension: usize) -> f64 {
-        if dimension == 2 {
-            self.size
-        } else {
-            self.size * self.size
+            size,
+            unit: if count == 2 { size } else { size * size },
         }
     }
 
@@ -212,4 +207,89 @@ impl Outline {
 fn bilinear(corners: [Point; 4]) -> [Point; 4] {
     let [p, q, r, s] = corners.map(|corner| corner / 4.0);
     [p + q + r + s, q + r - p - s, r + s - p - q, p + r - q - s]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outline(corners: &[[f64; 3]]) -> (View, Outline) {
+        let mesh = Mesh::new(if corners.len() == 2 { 2 } else { 3 }, corners.to_vec());
+        let facet = Facet {
+            nodes: (0..corners.len()).collect(),
+        };
+        let view = View::new(&mesh, &facet);
+        let outline = view.outline(&mesh, &facet);
+        (view, outline)
+    }
+
+    /// A quadrilateral that is no parallelogram and not plane.
+    const WARPED: [[f64; 3]; 4] = [
+        [0.0, 0.0, 0.1],
+        [1.0, 0.2, 0.0],
+        [1.6, 1.5, 0.2],
+        [-0.2, 1.0, 0.0],
+    ];
+
+    #[test]
+    fn shape_functions_reproduce_the_point_they_are_asked_for() {
+        for corners in [&WARPED[..], &WARPED[..3]] {
+            let (_, outline) = outline(corners);
+            for step in 0..9 {
+                let share = [0.1 * f64::from(step), 0.9 - 0.1 * f64::from(step)];
+                let [a, b, c, _] = outline.corners;
+                let at = a + ((b - a) * share[0] + (c - a) * share[1]) * 0.7;
+                let shape = outline.shape(at);
+                let terms = outline.corners.iter().zip(shape);
+                let found: Point = terms.map(|(corner, value)| corner * value).sum();
+                assert!((found - at).norm() < 1e-15, "{step} {found}");
+                assert!((shape.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn a_facet_seen_from_the_other_side_turns_clockwise() {
+        let (view, own) = outline(&WARPED);
+        let mesh = Mesh::new(3, WARPED.to_vec());
+        let nodes = vec![0, 3, 2, 1];
+        let back = view.outline(&mesh, &Facet { nodes });
+        assert!(own.least_turn(1.0) > 0.1 && back.least_turn(-1.0) > 0.1);
+        assert!(own.least_turn(-1.0) < 0.0 && back.least_turn(1.0) < 0.0);
+        // Distorted alike, and with the same shape functions in another order.
+        assert!((own.distortion() - back.distortion()).abs() < 1e-15);
+        let at = Point::new(0.1, -0.05);
+        let ([a, b, c, d], [p, s, r, q]) = (own.shape(at), back.shape(at));
+        let differences = [a - p, b - q, c - r, d - s];
+        assert!(
+            differences
+                .iter()
+                .all(|difference| difference.abs() < 1e-15)
+        );
+    }
+
+    #[test]
+    fn area_vectors_of_a_warped_facet_add_up_to_that_of_its_rim() {
+        // ∫ (−∇h, 1) over the plane is the facet's area vector: its mean normal is the plane's.
+        let (view, outline) = outline(&WARPED);
+        let (mut vector, mut area) = (Vector3::zeros(), 0.0);
+        super::super::quadrature::integrate(&outline.polygon(), 12, |at, share| {
+            vector += view.vector(outline.area_vector(at)) * (share * view.unit);
+            area += share * view.unit;
+        });
+        assert!((vector - view.normal * area).norm() < 1e-9, "{vector}");
+        let [a, b, c, d] = WARPED.map(Vector3::from);
+        assert!((vector - (c - a).cross(&(d - b)) / 2.0).norm() < 1e-9);
+    }
+
+    #[test]
+    fn a_facet_without_area_turns_nowhere() {
+        // A rectangle whose nodes run crosswise: its diagonals are parallel.
+        let crossed = [[0.0; 3], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+        let flat = [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+        for corners in [&crossed[..], &flat[..]] {
+            let (_, outline) = outline(corners);
+            assert!(outline.least_turn(1.0) <= 0.0);
+        }
+    }
 }
