@@ -4,7 +4,7 @@
 
 use nalgebra::Vector3;
 
-use super::plane_faces::{Side, block, meet, shipped};
+use super::sides::{Side, block, meet, shipped};
 use super::{Mortar, MortarNode};
 use crate::body::CellKind;
 
@@ -80,8 +80,9 @@ fn the_gap_between_concentric_faces_converges_at_second_order() {
 
 #[test]
 fn warped_facets_inside_a_face_are_wholly_covered() {
-    // Weights count the warped facet's own area, not that of the plane it is seen in. At the rim
-    // chords of different length leave some of it uncovered.
+    // Weights count the warped facet's own area, not that of the plane it is seen in; the whole
+    // is integrated with 2 × 2 points, 1e-8 off. At the rim chords of different length leave
+    // some of it uncovered.
     for case in &CASES[4..] {
         let sides = around(*case, [7, 5], 0.0);
         let mortar = meet(&sides).unwrap();
@@ -93,7 +94,7 @@ fn warped_facets_inside_a_face_are_wholly_covered() {
         assert!(inner.len() >= 9);
         for node in inner {
             assert!(
-                (node.covered - 1.0).abs() < 1e-9,
+                (node.covered - 1.0).abs() < 1e-7,
                 "{:e}",
                 node.covered - 1.0
             );

@@ -43,6 +43,10 @@ mod polygon;
 mod projection;
 mod quadrature;
 mod search;
+#[cfg(test)]
+mod several_faces;
+#[cfg(test)]
+mod sides;
 mod view;
 
 pub use coupling::couple;
