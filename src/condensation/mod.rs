@@ -11,6 +11,7 @@
 //! | step | file |
 //! |---|---|
 //! | where the body may touch what | `obstacle`, `facing`, `frame`, `surface` |
+//! | what a deformable other side is to the contact nodes (C7)–(C10) | `mortar` |
 //! | the stiffness in the contact's axes (C4) | `frames` |
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
 //! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
@@ -27,6 +28,7 @@ mod frame;
 mod frames;
 #[cfg(test)]
 mod lattice;
+pub mod mortar;
 pub mod obstacle;
 pub mod operator;
 mod ordering;
@@ -36,6 +38,7 @@ mod supported;
 pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
+pub use mortar::{Mortar, MortarNode};
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;
