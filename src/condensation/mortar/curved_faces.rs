@@ -178,7 +178,9 @@ fn the_gap_of_a_cylinder_on_a_flat_converges_at_second_order() {
 #[test]
 fn the_shipped_parabola_sees_the_flat_below_it() {
     // y = x²/(2R), R = 100 mm, over the flat y = 0; the slope is x/R, up to 0.2 at the rim.
-    let sides = shipped("B2_mindlin_n16");
+    let sides = shipped(include_str!(
+        "../../../tests/data/meshes/B2_mindlin_n16.msh"
+    ));
     let mortar = meet(&sides).unwrap();
     let count = |side: &Side| side.facets.len() + 1;
     assert_eq!(mortar.nodes.len(), count(&sides[0]));

@@ -236,7 +236,18 @@ fn position_and_units_do_not_matter() {
 
 #[test]
 fn the_shipped_patches_are_exact() {
-    for (name, contacts, axis) in [("D_patch2d_7_5", 8, 1), ("D_patch3d_4_3", 25, 2)] {
+    for (name, contacts, axis) in [
+        (
+            include_str!("../../../tests/data/meshes/D_patch2d_7_5.msh"),
+            8,
+            1,
+        ),
+        (
+            include_str!("../../../tests/data/meshes/D_patch3d_4_3.msh"),
+            25,
+            2,
+        ),
+    ] {
         let mortar = meet(&shipped(name)).unwrap();
         assert_eq!(mortar.nodes.len(), contacts);
         assert!(mortar.nodes.iter().all(|node| node.normal[axis] == -1.0));

@@ -97,10 +97,8 @@ pub(super) fn join(mut one: Side, other: &Side) -> Side {
     one
 }
 
-/// The two sides of a mesh with the groups `contact` and `master`.
-pub(super) fn shipped(name: &str) -> [Side; 2] {
-    let root = env!("CARGO_MANIFEST_DIR");
-    let bytes = std::fs::read(format!("{root}/tests/data/meshes/{name}.msh")).unwrap();
-    let mesh = gmsh::parse_bytes(&bytes, name).unwrap();
+/// The two sides of a shipped mesh's text with the groups `contact` and `master`.
+pub(super) fn shipped(text: &str) -> [Side; 2] {
+    let mesh = gmsh::parse(text, "shipped mesh").unwrap();
     ["contact", "master"].map(|side| Side::new(mesh.clone(), side))
 }
