@@ -236,7 +236,7 @@ fn position_and_units_do_not_matter() {
 
 #[test]
 fn the_shipped_patches_are_exact() {
-    for (name, contacts, axis) in [
+    for (text, contacts, axis) in [
         (
             include_str!("../../../tests/data/meshes/D_patch2d_7_5.msh"),
             8,
@@ -248,10 +248,13 @@ fn the_shipped_patches_are_exact() {
             2,
         ),
     ] {
-        let mortar = meet(&shipped(name)).unwrap();
+        let mortar = meet(&shipped(text)).unwrap();
         assert_eq!(mortar.nodes.len(), contacts);
         assert!(mortar.nodes.iter().all(|node| node.normal[axis] == -1.0));
-        assert!(worst_gap(&mortar, Vector3::zeros()) < 1e-14, "{name}");
-        assert!((weight(&mortar) - 1.0).abs() < 1e-14, "{name}");
+        assert!(
+            worst_gap(&mortar, Vector3::zeros()) < 1e-14,
+            "along axis {axis}"
+        );
+        assert!((weight(&mortar) - 1.0).abs() < 1e-14, "along axis {axis}");
     }
 }
