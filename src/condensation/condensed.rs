@@ -1,33 +1,24 @@
-//! A body condensed onto its contact surface, and the way back.
-//!
-//! ```text
-//! (C5)  L y = P Qᵀ (f − K u_p),   û_c = L_cc⁻ᵀ y_c           u_p: prescribed displacement
-//! (C6)  Lᵀ x = y + [0, L_cc⁻¹ t],  u = u_p + Q Pᵀ x           Q: the frames (C4), P: the ordering
-//! ```
-//!
-//! One forward and one backward substitution serve the free displacement and the
-//! recovered body together.
+//! Bodies condensed onto the contact problem between them, and the way back.
 
 use std::time::Instant;
 
-use sprs::CsMat;
+use faer::Mat;
 
-use super::factor::Factor;
-use super::frames::Frames;
-use super::ordering::Ordering;
-use super::supported::SupportedBody;
-use super::{ContactPair, ContactProblem, ContactSurface};
+use super::condensed_body::CondensedBody;
+use super::interface::Interface;
+use super::supported::{SupportedBody, Trailing};
+use super::{ContactPair, ContactProblem, ContactSurface, Operator};
 use crate::body::{self, Body};
 use crate::error::{Error, check_length};
 
-/// Counts and wall time of a condensation.
+/// Counts and wall time of a condensation, over all bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CondensationWork {
-    /// Sparse factorisations.
+    /// Sparse factorisations, one per body.
     pub factorisations: usize,
-    /// Unknowns of the supported body, contact unknowns included.
+    /// Unknowns of the supported bodies, contact unknowns included.
     pub unknowns: usize,
-    /// Stored entries of the factor L.
+    /// Stored entries of the factors L.
     pub factor_entries: usize,
     /// Checks, contact surface, stiffness and load, in second.
     pub assembly_seconds: f64,
@@ -41,58 +32,69 @@ pub struct CondensationWork {
     pub condensation_seconds: f64,
 }
 
-/// A body, its contact surface, and the factor that joins them.
+/// Bodies, their contact surface, and the factors that join them.
 #[derive(Debug)]
 pub struct Condensed {
-    pub(super) surface: ContactSurface,
-    pub(super) problem: ContactProblem,
-    pub(super) stiffness: CsMat<f64>,
-    pub(super) load: Vec<f64>,
-    pub(super) prescribed: Vec<Option<f64>>,
-    pub(super) work: CondensationWork,
-    pub(super) frames: Frames,
-    pub(super) ordering: Ordering,
-    pub(super) factor: Factor,
-    /// `y` of (C5).
-    pub(super) half_solved: Vec<f64>,
+    surface: ContactSurface,
+    problem: ContactProblem,
+    bodies: Vec<CondensedBody>,
+    interfaces: Vec<Interface>,
+    work: CondensationWork,
 }
 
 impl Condensed {
-    /// Condenses a body onto the surface where it may touch its obstacles.
+    /// Condenses bodies onto the surfaces where they may touch obstacles or each other.
     ///
     /// # Errors
     ///
     /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
     /// [`ContactSurface::new`] refuse, a rigid motion that the supports leave free, a
     /// stiffness that is not positive definite.
-    pub fn new(body: &Body, pairs: &[ContactPair]) -> Result<Self, Error> {
+    pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
         let start = Instant::now();
-        body::check(body)?;
-        let prescribed = body::prescribed(body)?;
-        let surface = ContactSurface::new(body, pairs, &prescribed)?;
-        if let Some(motion) = body::free_motion(body, &prescribed) {
-            return Err(Error::FreeMotion {
-                body: body.name.clone(),
-                motion: motion.to_string(),
-            });
+        let mut prescribed = Vec::with_capacity(bodies.len());
+        for body in bodies {
+            body::check(body)?;
+            prescribed.push(body::prescribed(body)?);
         }
-        let supported = SupportedBody {
-            name: &body.name,
-            nodes: &body.mesh.nodes,
-            dimension: body.mesh.dimension,
-            stiffness: body::stiffness(body),
-            load: body::load_vector(body),
-            prescribed,
-        };
-        let assembly_seconds = start.elapsed().as_secs_f64();
-        let friction = surface
-            .nodes
-            .iter()
-            .map(|contact| pairs[contact.pair].friction);
-        let friction = friction.collect();
-        let mut condensed = supported.condense(surface, friction)?;
-        condensed.work.assembly_seconds = assembly_seconds;
-        Ok(condensed)
+        let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
+        let mut work = CondensationWork::default();
+        let (mut condensed, mut interfaces, mut trailing) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
+            if let Some(motion) = body::free_motion(body, &prescribed) {
+                let motion = motion.to_string();
+                return Err(Error::FreeMotion {
+                    body: body.name.clone(),
+                    motion,
+                });
+            }
+            let dimension = body.mesh.dimension;
+            let interface = Interface::new(&surface, index, dimension, &prescribed);
+            let supported = SupportedBody {
+                name: &body.name,
+                nodes: &body.mesh.nodes,
+                dimension,
+                stiffness: body::stiffness(body),
+                load: body::load_vector(body),
+                prescribed,
+            };
+            let (body, of_interface) = supported.condense(&interface.nodes, &mut work)?;
+            condensed.push(body);
+            interfaces.push(interface);
+            trailing.push(of_interface);
+        }
+        let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
+        work.assembly_seconds = start.elapsed().as_secs_f64() - before;
+        let start = Instant::now();
+        let problem = join(&surface, pairs, &interfaces, trailing)?;
+        work.condensation_seconds += start.elapsed().as_secs_f64();
+        Ok(Self {
+            surface,
+            problem,
+            bodies: condensed,
+            interfaces,
+            work,
+        })
     }
 
     /// The contact surface.
@@ -107,22 +109,10 @@ impl Condensed {
         &self.problem
     }
 
-    /// Stiffness K of the whole body in global axes, supports not applied, in N/m.
+    /// The bodies, in the order they were given.
     #[must_use]
-    pub fn stiffness(&self) -> &CsMat<f64> {
-        &self.stiffness
-    }
-
-    /// Load f per degree of freedom (`node · dimension + axis`), in newton.
-    #[must_use]
-    pub fn load(&self) -> &[f64] {
-        &self.load
-    }
-
-    /// Prescribed displacement per degree of freedom, in metre.
-    #[must_use]
-    pub fn prescribed(&self) -> &[Option<f64>] {
-        &self.prescribed
+    pub fn bodies(&self) -> &[CondensedBody] {
+        &self.bodies
     }
 
     /// What it took.
@@ -131,38 +121,63 @@ impl Condensed {
         self.work
     }
 
-    /// Displacement of every node under the load and a contact reaction (C6), in metre.
+    /// Displacement of every node of every body under the load and a contact reaction
+    /// (C6), in metre.
     ///
-    /// `reaction` is in newton, per unknown of the contact problem; the result is in global axes
-    /// per degree of freedom.
+    /// `reaction` is in newton, per unknown of the contact problem; the result is in global
+    /// axes, per body and degree of freedom.
     ///
     /// # Errors
     ///
     /// [`Error::Length`] if the reaction does not fit the contact problem.
-    pub fn recover(&self, reaction: &[f64]) -> Result<Vec<f64>, Error> {
+    pub fn recover(&self, reaction: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
-        let ordinary = self.ordering.ordinary();
-        let mut x = vec![0.0; self.ordering.unknowns()];
-        x[ordinary..].copy_from_slice(reaction);
-        self.factor.forward_on_contact(&mut x);
-        for (x, y) in x.iter_mut().zip(&self.half_solved) {
-            *x += y;
-        }
-        self.factor.backward(&mut x);
-
-        let mut displacement = vec![0.0; self.load.len()];
-        for (&dof, &value) in self.ordering.dof.iter().zip(&x) {
-            displacement[dof] = value;
-        }
-        self.frames.turn_to_global(&mut displacement);
-        for (u, prescribed) in displacement.iter_mut().zip(&self.prescribed) {
-            // A held tangent is a global axis: nothing else moves the node along it.
-            if let Some(value) = prescribed {
-                *u = *value;
-            }
-        }
-        Ok(displacement)
+        let bodies = self.bodies.iter().zip(&self.interfaces);
+        Ok(bodies
+            .map(|(body, interface)| body.recover(&interface.forces(reaction)))
+            .collect())
     }
+}
+
+/// The contact problem of all bodies together (C7).
+fn join(
+    surface: &ContactSurface,
+    pairs: &[ContactPair],
+    interfaces: &[Interface],
+    trailing: Vec<Trailing>,
+) -> Result<ContactProblem, Error> {
+    let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
+    let unknowns = tangents.iter().map(|count| 1 + count).sum();
+    let mut free_displacement = vec![0.0; unknowns];
+    for (interface, of_body) in interfaces.iter().zip(&trailing) {
+        interface.add_displacement(&of_body.free_displacement, &mut free_displacement);
+    }
+    let mut operators = trailing
+        .into_iter()
+        .map(|of_body| Operator::from_factor(of_body.factor));
+    let operator = match (interfaces, operators.next()) {
+        ([interface], Some(operator)) if interface.is_identity() => operator,
+        (_, first) => {
+            let mut compliance = Mat::zeros(unknowns, unknowns);
+            for (interface, operator) in interfaces.iter().zip(first.into_iter().chain(operators)) {
+                interface.add_compliance(operator.compliance(), &mut compliance);
+            }
+            Operator::from_compliance(compliance)?
+        }
+    };
+    let friction = surface
+        .nodes
+        .iter()
+        .map(|contact| pairs[contact.pair].friction)
+        .collect();
+    let initial_gap = surface.nodes.iter().map(|node| node.initial_gap).collect();
+    ContactProblem::new(
+        &tangents,
+        friction,
+        initial_gap,
+        free_displacement,
+        operator,
+    )
 }
 
 #[cfg(test)]

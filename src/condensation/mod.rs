@@ -20,11 +20,13 @@
 #[cfg(test)]
 mod bed;
 mod condensed;
+mod condensed_body;
 mod elimination_tree;
 mod facing;
 mod factor;
 mod frame;
 mod frames;
+mod interface;
 #[cfg(test)]
 mod lattice;
 pub mod obstacle;
@@ -36,7 +38,8 @@ mod supported;
 pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
+pub use condensed_body::CondensedBody;
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;
-pub use surface::{ContactNode, ContactPair, ContactSurface};
+pub use surface::{ContactNode, ContactPair, ContactSurface, Opposite, OppositeNodes};
