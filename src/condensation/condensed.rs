@@ -139,7 +139,7 @@ impl Condensed {
     }
 }
 
-/// The contact problem of all bodies together (C7).
+/// The contact problem of all bodies together (C11).
 fn join(
     surface: &ContactSurface,
     pairs: &[ContactPair],

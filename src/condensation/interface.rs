@@ -1,7 +1,7 @@
 //! What the contacts need of one body: nodes, axes, and how each contact moves with them.
 //!
 //! ```text
-//! (C7)  u_i = Σ_k B_k v_k + given       v_k: displacement of body k's interface unknowns
+//! (C11)  u_i = Σ_k B_k v_k + given       v_k: displacement of body k's interface unknowns
 //!       û = Σ_k B_k v̂_k + given,   G = Σ_k B_k G_k B_kᵀ,   forces on body k: B_kᵀ t
 //! ```
 //!
@@ -100,7 +100,7 @@ impl Interface {
         !self.rows[unknown].is_empty()
     }
 
-    /// Adds `B_k v_k + given` (C7).
+    /// Adds `B_k v_k + given` (C11).
     pub(crate) fn add_displacement(&self, of_body: &[f64], displacement: &mut [f64]) {
         for (u, (row, given)) in displacement
             .iter_mut()
@@ -110,7 +110,7 @@ impl Interface {
         }
     }
 
-    /// Adds `B_k G_k B_kᵀ` (C7) to both triangles.
+    /// Adds `B_k G_k B_kᵀ` (C11) to both triangles.
     pub(crate) fn add_compliance(&self, of_body: &Mat<f64>, compliance: &mut Mat<f64>) {
         let mut column = vec![0.0; self.unknowns];
         for (j, row) in self

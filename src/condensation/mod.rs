@@ -29,9 +29,11 @@ mod frames;
 mod interface;
 #[cfg(test)]
 mod lattice;
+pub mod mortar;
 pub mod obstacle;
 pub mod operator;
 mod ordering;
+mod paired;
 pub mod problem;
 mod substitution;
 mod supported;

@@ -10,6 +10,7 @@ use std::collections::HashMap;
 use super::Obstacle;
 use super::facing::Boundary;
 use super::frame::Stance;
+use super::paired::{OppositeSurface, between_surfaces};
 use crate::body::{Body, Facet, FacetGeometry};
 use crate::error::{Error, check_finite};
 
@@ -130,7 +131,10 @@ impl ContactSurface {
                     &boundaries[pair.body],
                     &prescribed[pair.body],
                 )?,
-                Opposite::Surface { .. } => todo!(),
+                Opposite::Surface { body, facets } => {
+                    let opposite = OppositeSurface { body: *body, facets };
+                    between_surfaces(bodies, prescribed, pair, &opposite)?
+                }
             };
             boundaries[pair.body].mark_rims(&mut found.contacts, &pair.facets);
             for contact in &mut found.contacts {
@@ -157,10 +161,10 @@ impl ContactSurface {
 }
 
 /// What one pair adds to the contact surface.
-struct PairSurface {
-    contacts: Vec<ContactNode>,
-    facets: Vec<Facet>,
-    left_out: Vec<usize>,
+pub(super) struct PairSurface {
+    pub(super) contacts: Vec<ContactNode>,
+    pub(super) facets: Vec<Facet>,
+    pub(super) left_out: Vec<usize>,
 }
 
 /// The contacts of a pair with a rigid obstacle.
