@@ -89,10 +89,6 @@ fn every_public_problem_is_certified_and_passes_a_second_residual() {
         let bare = load(name);
         let (_, outcome) = run(&bare);
         let second = rigid_body_residual(&bare, &outcome.reaction);
-        println!(
-            "{name}: {:e} {second:e}",
-            outcome.verdict.certificate.natural_map
-        );
         assert_eq!(outcome.status, Status::Certified, "{name}");
         assert!(second <= 1e-8, "{name}: {second:e}");
         // Whatever the prediction found, the default ran cone programs.
