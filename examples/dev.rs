@@ -23,7 +23,7 @@ fn main() {
     };
     let s = Scene::from_json(&text, "x").unwrap();
     let m = s.mechanics().unwrap();
-    let c = Condensed::new(&m.bodies[0], &m.contacts).unwrap();
+    let c = Condensed::new(&m.bodies, &m.contacts).unwrap();
     let w = c.work();
     println!("{:?}", w);
     for which in &a[3..] {
@@ -67,7 +67,7 @@ fn main() {
         let rec = t.elapsed().as_secs_f64();
         println!(
             "  recover {rec:.3} {} ratio {:.3}",
-            u.len(),
+            u[0].len(),
             (w.condensation_seconds + dt + rec) / w.factorisation_seconds
         );
     }

@@ -1,4 +1,4 @@
-//! Equilibrium of the whole body, from its recovered displacement.
+//! Equilibrium of a whole body, from its recovered displacement.
 //!
 //! ```text
 //! (K4)  K u = f + c + s      f loads, c contact forces, s support reactions, at every node
@@ -6,8 +6,6 @@
 //! ```
 //!
 //! Where a displacement is free, `s` must vanish: what is left of it is the residual.
-//! The certificate of (L1)–(L3) speaks of the condensed problem; that the body holds
-//! the same displacements at its contact nodes is measured here as well.
 
 use super::body_state::BodyState;
 use super::certificate::Worst;
@@ -25,7 +23,7 @@ pub struct WorstNode {
     pub node: usize,
 }
 
-/// Equilibrium (K4), measured.
+/// Equilibrium (K4) of one body, measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Balance {
     /// Largest force that nothing carries at a free displacement, in newton; scaled by
@@ -33,9 +31,6 @@ pub struct Balance {
     pub equilibrium: WorstNode,
     /// Largest departure from a given displacement, in metre; scaled by the largest displacement.
     pub support: WorstNode,
-    /// Largest difference between the body's and the condensed displacement of a contact,
-    /// in metre; scaled by the largest displacement.
-    pub surface: Worst,
     /// Given forces.
     pub loads: Resultant,
     /// Contact forces on the body.
@@ -52,7 +47,7 @@ pub struct Balance {
 ///
 /// # Errors
 ///
-/// [`Error::Length`] if arrays do not belong together, [`Error::OutOfRange`] if a
+/// [`Error::Length`] if arrays do not belong together, [`Error::UnknownIndex`] if a
 /// contact stands at a node that the mesh does not have.
 pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     state.check()?;
@@ -75,12 +70,11 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     Ok(Balance {
         equilibrium: worst_node(&loose, force, dimension),
         support: worst_node(&state.support_departure(), motion, dimension),
-        surface: state.surface_departure().over(motion),
         loads,
         contact,
         supports,
-        force_defect: Defect::of(forces, total),
-        moment_defect: Defect::of(moments, total * reach),
+        force_defect: Defect::of(&forces, total),
+        moment_defect: Defect::of(&moments, total * reach),
     })
 }
 

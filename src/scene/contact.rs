@@ -6,7 +6,7 @@ use serde::Deserialize;
 use super::selection::{self, norm, vector};
 use super::spelling;
 use crate::body::Body;
-use crate::condensation::{ContactPair, Obstacle};
+use crate::condensation::{ContactPair, Obstacle, Opposite};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle.
@@ -66,7 +66,8 @@ pub enum SceneObstacle {
 impl SceneContact {
     /// The contact in the terms of mechanics.
     pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
-        let body = self.body(place, bodies)?;
+        let index = self.body(place, bodies)?;
+        let dimension = bodies[index].mesh.dimension;
         if !(self.friction >= 0.0 && self.friction.is_finite()) {
             return Err(Error::OutOfRange {
                 place: format!("{place}.friction"),
@@ -77,16 +78,18 @@ impl SceneContact {
         let obstacle = format!("{place}.obstacle");
         Ok(ContactPair {
             place: place.to_owned(),
-            obstacle: self.obstacle.resolve(&obstacle, body.mesh.dimension)?,
-            facets: selection::facets(&body.mesh, &format!("{place}.group"), &self.group)?,
+            body: index,
+            opposite: Opposite::Obstacle(self.obstacle.resolve(&obstacle, dimension)?),
+            facets: selection::facets(&bodies[index].mesh, &format!("{place}.group"), &self.group)?,
             friction: self.friction,
         })
     }
 
-    fn body<'a>(&self, place: &str, bodies: &'a [Body]) -> Result<&'a Body, Error> {
+    /// Index of the body it names, or of the only one.
+    fn body(&self, place: &str, bodies: &[Body]) -> Result<usize, Error> {
         let named = bodies
             .iter()
-            .find(|body| self.body.as_ref().is_none_or(|name| *name == body.name));
+            .position(|body| self.body.as_ref().is_none_or(|name| *name == body.name));
         named.ok_or_else(|| {
             let name = self.body.clone().unwrap_or_default();
             let known = bodies.iter().map(|body| body.name.as_str());
