@@ -108,3 +108,85 @@ impl Sums {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::kkt::samples::{lid_on_box, pairs};
+
+    #[test]
+    fn what_the_lid_gives_the_box_receives() {
+        let (bodies, surface, problem) = lid_on_box(0.0);
+        // 8 N up on the lid at x = 1, 2 N of friction along x; (1, 0) × (2, 8) = 8 N m.
+        let found = exchange(&bodies, &pairs(), &surface, &problem, &[-8.0, 2.0]).unwrap();
+        assert_eq!(found[0].own.force, [2.0, 8.0, 0.0]);
+        assert_eq!(found[0].own.moment, [0.0, 0.0, 8.0]);
+        let opposite = found[0].opposite.unwrap();
+        assert_eq!(opposite.force, [-2.0, -8.0, 0.0]);
+        // A quarter at x = 4, three quarters at x = 0.
+        assert_eq!(opposite.moment, [0.0, 0.0, -8.0]);
+        assert_eq!(found[0].force_defect, Defect::default());
+        assert_eq!(found[0].moment_defect, Defect::default());
+    }
+
+    #[test]
+    fn an_initial_gap_leaves_a_moment_of_gap_times_friction() {
+        let (bodies, surface, problem) = lid_on_box(0.5);
+        let found = exchange(&bodies, &pairs(), &surface, &problem, &[-8.0, 2.0]).unwrap();
+        assert_eq!(found[0].force_defect.value, 0.0);
+        // 0.5 m · 2 N of friction, about z.
+        assert!((found[0].moment_defect.value - 1.0).abs() < 1e-15);
+        let frictionless = exchange(&bodies, &pairs(), &surface, &problem, &[-8.0, 0.0]).unwrap();
+        assert_eq!(frictionless[0].moment_defect.value, 0.0);
+    }
+
+    #[test]
+    fn an_obstacle_answers_nothing() {
+        let (bodies, mut surface, problem) = lid_on_box(0.0);
+        let mut pairs = pairs();
+        pairs.swap(0, 1);
+        surface.nodes[0].opposite = None;
+        let found = exchange(&bodies, &pairs, &surface, &problem, &[-8.0, 2.0]).unwrap();
+        assert_eq!(found[0].own.force, [2.0, 8.0, 0.0]);
+        assert_eq!(
+            (found[0].opposite, found[0].force_defect.value),
+            (None, 0.0)
+        );
+        assert_eq!(found[1].opposite, Some(Resultant::default()));
+    }
+
+    #[test]
+    fn weights_that_do_not_add_up_to_one_lose_force() {
+        let (bodies, mut surface, problem) = lid_on_box(0.0);
+        if let Some(opposite) = &mut surface.nodes[0].opposite {
+            opposite.nodes.pop();
+        }
+        let found = exchange(&bodies, &pairs(), &surface, &problem, &[-8.0, 0.0]).unwrap();
+        // 8 N − ¾ · 8 N, of 8 + 6 N.
+        assert_eq!(found[0].force_defect.value, 2.0);
+        assert!((found[0].force_defect.scaled - 2.0 / 14.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn contacts_of_unknown_pairs_bodies_and_nodes_are_refused() {
+        let (bodies, surface, problem) = lid_on_box(0.0);
+        let refused = |surface: &ContactSurface, word: &str| {
+            let found = exchange(&bodies, &pairs(), surface, &problem, &[0.0; 2]);
+            matches!(found, Err(Error::UnknownIndex { what, .. }) if what == word)
+        };
+        let mut changed = surface.clone();
+        changed.nodes[0].pair = 2;
+        assert!(refused(&changed, "pair"));
+        let mut changed = surface.clone();
+        changed.nodes[0].body = 9;
+        assert!(refused(&changed, "body"));
+        let mut changed = surface.clone();
+        if let Some(opposite) = &mut changed.nodes[0].opposite {
+            opposite.nodes[0].0 = 9;
+        }
+        assert!(refused(&changed, "node"));
+        let short = exchange(&bodies, &pairs(), &surface, &problem, &[0.0]);
+        assert!(matches!(short, Err(Error::Length { .. })));
+    }
+}

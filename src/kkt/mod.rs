@@ -29,6 +29,8 @@ mod exchange;
 mod judge;
 mod natural_map;
 mod resultant;
+#[cfg(test)]
+mod samples;
 mod scales;
 mod sides;
 mod signorini;
