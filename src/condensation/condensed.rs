@@ -186,8 +186,7 @@ mod tests {
     use super::*;
     use crate::body::samples::{block, body, distorted, facets};
     use crate::body::{CellKind, Facet, Load, Material, Mesh, Model, Support, graded, rectangle};
-    use crate::condensation::Obstacle;
-    use faer::Mat;
+    use crate::condensation::{Obstacle, Opposite};
     use nalgebra::{Rotation3, Vector3};
 
     const KINDS: [CellKind; 4] = [
@@ -216,10 +215,11 @@ mod tests {
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
             facets: facets(&body.mesh, "bottom"),
-            obstacle: Obstacle::Plane {
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane {
                 point: normal.map(|component| -0.0005 * component),
                 normal,
-            },
+            }),
             friction: 0.4,
         };
         (body, pair)
@@ -244,12 +244,12 @@ mod tests {
     fn the_recovered_body_is_in_equilibrium_with_load_and_contact_forces() {
         for kind in KINDS {
             let (body, pair) = pressed(kind);
-            let condensed = Condensed::new(&body, &[pair]).unwrap();
+            let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
             let reaction = some_reaction(condensed.problem().unknowns());
-            let displacement = condensed.recover(&reaction).unwrap();
+            let displacement = condensed.recover(&reaction).unwrap().remove(0);
             // (B2): K u − f − contact forces vanishes wherever no support acts.
-            let mut rest: Vec<f64> = condensed.load().iter().map(|f| -f).collect();
-            for (&value, (row, column)) in condensed.stiffness() {
+            let mut rest: Vec<f64> = condensed.bodies()[0].load().iter().map(|f| -f).collect();
+            for (&value, (row, column)) in condensed.bodies()[0].stiffness() {
                 rest[row] += value * displacement[column];
             }
             let axes = body.mesh.dimension;
@@ -262,10 +262,10 @@ mod tests {
                     }
                 }
             }
-            let free = rest.iter().zip(condensed.prescribed());
+            let free = rest.iter().zip(condensed.bodies()[0].prescribed());
             let free = free.filter(|(_, u)| u.is_none()).map(|(r, _)| *r);
             assert!(largest(free) < 1e-12, "{kind:?}");
-            for (u, prescribed) in displacement.iter().zip(condensed.prescribed()) {
+            for (u, prescribed) in displacement.iter().zip(condensed.bodies()[0].prescribed()) {
                 assert!(prescribed.is_none_or(|prescribed| prescribed == *u));
             }
         }
@@ -286,16 +286,18 @@ mod tests {
             if kind.dimension() == 3 {
                 pair.friction = 0.0;
             }
-            let straight = Condensed::new(&body, std::slice::from_ref(&pair)).unwrap();
+            let straight =
+                Condensed::new(std::slice::from_ref(&body), std::slice::from_ref(&pair)).unwrap();
             body.mesh
                 .nodes
                 .iter_mut()
                 .for_each(|node| *node = turn(*node));
             let mut turned_pair = pair;
-            if let Obstacle::Plane { point, normal } = &mut turned_pair.obstacle {
+            if let Opposite::Obstacle(Obstacle::Plane { point, normal }) = &mut turned_pair.opposite
+            {
                 (*point, *normal) = (turn(*point), turn(*normal));
             }
-            let turned = Condensed::new(&body, &[turned_pair]).unwrap();
+            let turned = Condensed::new(std::slice::from_ref(&body), &[turned_pair]).unwrap();
             let (a, b) = (straight.problem(), turned.problem());
             assert_close(b.initial_gap(), a.initial_gap());
             assert_close(b.free_displacement(), a.free_displacement());
@@ -315,8 +317,8 @@ mod tests {
         for side in ["left", "front", "top"] {
             grown.facets.extend(facets(&body.mesh, side));
         }
-        let small = Condensed::new(&body, &[pair]).unwrap();
-        let large = Condensed::new(&body, &[grown]).unwrap();
+        let small = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
+        let large = Condensed::new(std::slice::from_ref(&body), &[grown]).unwrap();
         assert_eq!(
             small.problem().free_displacement(),
             large.problem().free_displacement()
@@ -350,14 +352,15 @@ mod tests {
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
             facets: facets(&square.mesh, "bottom"),
-            obstacle: Obstacle::Plane {
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
-            },
+            }),
             friction: 0.0,
         };
-        let condensed = Condensed::new(&square, &[pair]).unwrap();
-        assert_eq!(condensed.surface().left_out, [8]);
+        let condensed = Condensed::new(&[square], &[pair]).unwrap();
+        assert_eq!(condensed.surface().left_out, [(0, 8)]);
         // Every contact closes: S t = −û, for the gap is zero.
         let problem = condensed.problem();
         let free = problem.free_displacement();
@@ -371,7 +374,10 @@ mod tests {
         {
             assert!((-force / contact.area / 5e7 - 1.0).abs() < 1e-10);
         }
-        let displacement = condensed.recover(reaction.col_as_slice(0)).unwrap();
+        let displacement = condensed
+            .recover(reaction.col_as_slice(0))
+            .unwrap()
+            .remove(0);
         for node in (0..81).step_by(9) {
             let expected = 0.04 * (0.96 * 15e7 - 0.24 * 5e7) / 1.3e11;
             assert!((displacement[2 * node] / expected - 1.0).abs() < 1e-12);
@@ -381,7 +387,7 @@ mod tests {
     #[test]
     fn one_factorisation_serves_a_condensation() {
         let (body, pair) = pressed(CellKind::Quad4);
-        let condensed = Condensed::new(&body, &[pair]).unwrap();
+        let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
         let work = condensed.work();
         // 5 × 3 nodes, 3 of them held: 24 unknowns; L has at least a triangle of the contact block.
         assert_eq!((work.factorisations, work.unknowns), (1, 24));
@@ -391,14 +397,14 @@ mod tests {
     #[test]
     fn a_reaction_of_the_wrong_length_is_refused() {
         let (body, pair) = pressed(CellKind::Quad4);
-        let condensed = Condensed::new(&body, &[pair]).unwrap();
+        let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
         assert!(condensed.recover(&[0.0]).is_err());
     }
 
     #[test]
     fn a_body_that_nothing_holds_is_refused_with_its_motion() {
         let (_, pair) = pressed(CellKind::Hex8);
-        let found = Condensed::new(&block(CellKind::Hex8), &[pair]).unwrap_err();
+        let found = Condensed::new(&[block(CellKind::Hex8)], &[pair]).unwrap_err();
         assert!(matches!(found, Error::FreeMotion { .. }), "{found}");
     }
 
@@ -419,13 +425,14 @@ mod tests {
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
             facets: vec![Facet { nodes: vec![2, 4] }],
-            obstacle: Obstacle::Plane {
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
-            },
+            }),
             friction: 0.5,
         };
-        let found = Condensed::new(&hinged, &[pair]).unwrap_err();
+        let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(
             matches!(found, Error::NotPositiveDefinite { .. }),
             "{found}"
@@ -445,7 +452,10 @@ mod tests {
             for (cell, material) in body.material_of_cell.iter_mut().enumerate() {
                 *material = usize::from(body.mesh.centroid(cell)[0] < 1.2);
             }
-            assert!(Condensed::new(&body, &[pair]).is_ok(), "{kind:?}");
+            assert!(
+                Condensed::new(std::slice::from_ref(&body), &[pair]).is_ok(),
+                "{kind:?}"
+            );
         }
     }
 }

@@ -404,7 +404,10 @@ mod tests {
         let corner = bottom_right(&body);
         hold(&mut body, &[corner], [Some(0.0), Some(0.0), None]);
         let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
-        assert_eq!((surface.left_out, surface.nodes.len()), (vec![corner], 4));
+        assert_eq!(
+            (surface.left_out, surface.nodes.len()),
+            (vec![(0, corner)], 4)
+        );
         let all: Vec<usize> = (0..body.mesh.nodes.len()).collect();
         hold(&mut body, &all, [None, Some(0.0), None]);
         let found = find(&body, &[pair(&body, &["bottom"])]).unwrap_err();
@@ -449,10 +452,10 @@ mod tests {
         let corner = bottom_right(&body);
         hold(&mut body, &[corner], [Some(0.0), None, None]);
         let mut pair = pair(&body, &["bottom"]);
-        pair.obstacle = Obstacle::Plane {
+        pair.opposite = Opposite::Obstacle(Obstacle::Plane {
             point: [0.0, -1.0, 0.0],
             normal: [0.6, 0.8, 0.0],
-        };
+        });
         let found = find(&body, &[pair]).unwrap_err();
         assert!(found.to_string().contains("supported along x"), "{found}");
     }
@@ -505,11 +508,11 @@ mod tests {
         // Cylinder of radius 2 below the origin: the gap at (x, 0) is √(x² + 4) − 2.
         let body = block(CellKind::Quad4);
         let mut round = pair(&body, &["bottom"]);
-        round.obstacle = Obstacle::Cylinder {
+        round.opposite = Opposite::Obstacle(Obstacle::Cylinder {
             center: [0.0, -2.0, 0.0],
             axis: [0.0, 0.0, 1.0],
             radius: 2.0,
-        };
+        });
         for contact in find(&body, &[round]).unwrap().nodes {
             let x = contact.position[0];
             assert!((contact.initial_gap - (x.hypot(2.0) - 2.0)).abs() < 1e-15);

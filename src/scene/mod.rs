@@ -227,7 +227,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::{CellKind, Group, Load, Mesh, Model, rectangle};
-    use crate::condensation::Obstacle;
+    use crate::condensation::{Obstacle, Opposite};
 
     /// Two by two quads on a square of side 2 m, pressed on a line.
     const SQUARE: &str = r#"{
@@ -292,7 +292,8 @@ mod tests {
         );
         assert_eq!(contact.facets.len(), 2);
         let (point, normal) = ([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]);
-        assert_eq!(contact.obstacle, Obstacle::Plane { point, normal });
+        let plane = Opposite::Obstacle(Obstacle::Plane { point, normal });
+        assert_eq!((contact.body, &contact.opposite), (0, &plane));
         assert_eq!(settings.max_sweeps, 7);
         assert_eq!(settings.tolerance, Settings::default().tolerance);
     }
@@ -335,12 +336,12 @@ mod tests {
             Model::PlaneStress { thickness: 0.1 }
         );
         assert_eq!(
-            mechanics.contacts[0].obstacle,
-            Obstacle::Cylinder {
+            mechanics.contacts[0].opposite,
+            Opposite::Obstacle(Obstacle::Cylinder {
                 center: [0.0, -2.0, 0.0],
                 axis: [0.0, 0.0, 1.0],
                 radius: 1.5
-            }
+            })
         );
     }
 
