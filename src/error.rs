@@ -81,6 +81,24 @@ pub enum Error {
         facets: usize,
     },
 
+    /// No part of a contact pair's side faces the other side.
+    #[error(
+        "{place}: none of the {facets} facets faces any of the {opposite} facets of the other side \
+         ({averted} pairs lie over each other but look the same way); expected outward normals that \
+         point towards each other, within 60 degrees, facets that cover each other along them, and \
+         an interference of at most half the extent of the first side"
+    )]
+    NothingFacesOpposite {
+        /// The contact pair, such as `contacts[0]`.
+        place: String,
+        /// Number of facets of the side that carries the contacts.
+        facets: usize,
+        /// Number of facets of the other side.
+        opposite: usize,
+        /// Pairs of facets, one about over the other, with normals that do not oppose.
+        averted: usize,
+    },
+
     /// No contact node is left.
     #[error(
         "the contact surface is empty: {pairs} contact pairs, {left_out} nodes left out because \

@@ -11,6 +11,7 @@
 //! | step | file |
 //! |---|---|
 //! | where the body may touch what | `obstacle`, `facing`, `frame`, `surface` |
+//! | what a deformable other side is to the contact nodes (C7)–(C10) | `mortar` |
 //! | the stiffness in the contact's axes (C4) | `frames` |
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
 //! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
@@ -41,6 +42,7 @@ pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
 pub use condensed_body::CondensedBody;
+pub use mortar::{Mortar, MortarNode};
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;

@@ -28,17 +28,28 @@ pub(super) fn between_surfaces(
     opposite: &OppositeSurface<'_>,
 ) -> Result<PairSurface, Error> {
     let (own, other) = (&bodies[pair.body], &bodies[opposite.body]);
-    let coupled =
-        mortar::couple(&own.mesh, &pair.facets, &other.mesh, opposite.facets, &pair.place)?;
+    let coupled = mortar::couple(
+        &own.mesh,
+        &pair.facets,
+        &other.mesh,
+        opposite.facets,
+        &pair.place,
+    )?;
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
     for node in coupled.nodes {
         let held = |body: usize, node: usize| held_axes(bodies, prescribed, body, node);
         let of_node = held(pair.body, node.node);
         // A direction moves if one of the nodes can move along it.
         let mut sides = vec![of_node];
-        sides.extend(node.opposite.iter().map(|&(node, _)| held(opposite.body, node)));
+        sides.extend(
+            node.opposite
+                .iter()
+                .map(|&(node, _)| held(opposite.body, node)),
+        );
         let moves = |row: &[f64; 3]| {
-            sides.iter().any(|held| row.iter().zip(held).any(|(d, held)| *d != 0.0 && !held))
+            sides
+                .iter()
+                .any(|held| row.iter().zip(held).any(|(d, held)| *d != 0.0 && !held))
         };
         let mut frame = frame(own.mesh.dimension, &node, of_node);
         frame[1..].sort_by_key(|row| !moves(row));
@@ -46,11 +57,17 @@ pub(super) fn between_surfaces(
             left_out.push(node.node);
             continue;
         }
-        let tangents = frame[1..own.mesh.dimension].iter().filter(|row| moves(row)).count();
+        let tangents = frame[1..own.mesh.dimension]
+            .iter()
+            .filter(|row| moves(row))
+            .count();
         contacts.push(ContactNode {
             body: pair.body,
             node: node.node,
-            opposite: Some(OppositeNodes { body: opposite.body, nodes: node.opposite }),
+            opposite: Some(OppositeNodes {
+                body: opposite.body,
+                nodes: node.opposite,
+            }),
             pair: 0,
             position: own.mesh.nodes[node.node],
             frame,
@@ -60,11 +77,18 @@ pub(super) fn between_surfaces(
             rim: false,
         });
     }
-    let met: HashSet<usize> =
-        contacts.iter().map(|contact| contact.node).chain(left_out.iter().copied()).collect();
+    let met: HashSet<usize> = contacts
+        .iter()
+        .map(|contact| contact.node)
+        .chain(left_out.iter().copied())
+        .collect();
     let covered = |facet: &&Facet| facet.nodes.iter().all(|node| met.contains(node));
     let facets = pair.facets.iter().filter(covered).cloned().collect();
-    Ok(PairSurface { contacts, facets, left_out })
+    Ok(PairSurface {
+        contacts,
+        facets,
+        left_out,
+    })
 }
 
 /// Which axes of a node a support holds; an axis that the body does not have is held.

@@ -132,7 +132,10 @@ impl ContactSurface {
                     &prescribed[pair.body],
                 )?,
                 Opposite::Surface { body, facets } => {
-                    let opposite = OppositeSurface { body: *body, facets };
+                    let opposite = OppositeSurface {
+                        body: *body,
+                        facets,
+                    };
                     between_surfaces(bodies, prescribed, pair, &opposite)?
                 }
             };

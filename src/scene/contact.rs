@@ -131,17 +131,22 @@ fn find_body(place: &str, name: Option<&str>, bodies: &[Body]) -> Result<usize, 
         (None, _) => Err(Error::NotAccepted {
             place: place.to_owned(),
             found: "no name".to_owned(),
-            accepted: format!("the name of one of the bodies: {}", known().collect::<Vec<_>>().join(", ")),
+            accepted: format!(
+                "the name of one of the bodies: {}",
+                known().collect::<Vec<_>>().join(", ")
+            ),
         }),
-        (Some(name), _) => known().position(|known| known == name).ok_or_else(|| {
-            Error::UnknownName {
-                place: place.to_owned(),
-                what: "body",
-                nearest: spelling::nearest(name, known()).map(str::to_owned),
-                name: name.to_owned(),
-                known: known().map(str::to_owned).collect(),
-            }
-        }),
+        (Some(name), _) => {
+            known()
+                .position(|known| known == name)
+                .ok_or_else(|| Error::UnknownName {
+                    place: place.to_owned(),
+                    what: "body",
+                    nearest: spelling::nearest(name, known()).map(str::to_owned),
+                    name: name.to_owned(),
+                    known: known().map(str::to_owned).collect(),
+                })
+        }
     }
 }
 

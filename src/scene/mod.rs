@@ -169,14 +169,19 @@ impl Scene {
 /// Bodies of one scene live in one space, under names of their own.
 fn check_together(bodies: &[Body]) -> Result<(), Error> {
     let Some(first) = bodies.first() else {
-        return Err(Error::Empty { place: "bodies".to_owned() });
+        return Err(Error::Empty {
+            place: "bodies".to_owned(),
+        });
     };
     for (at, body) in bodies.iter().enumerate() {
         if body.mesh.dimension != first.mesh.dimension {
             return Err(Error::NotAccepted {
                 place: format!("bodies[{at}].mesh"),
                 found: format!("a mesh in {}D", body.mesh.dimension),
-                accepted: format!("one in {}D, as that of `{}`", first.mesh.dimension, first.name),
+                accepted: format!(
+                    "one in {}D, as that of `{}`",
+                    first.mesh.dimension, first.name
+                ),
             });
         }
         if bodies[..at].iter().any(|other| other.name == body.name) {

@@ -1,0 +1,139 @@
+//! Contact forces that meet on one line, so that moments balance.
+//!
+//! A reaction `t n` at `x` on side 1 and `−P_k t n` at `x²_k` on side 2 have the moment
+//! `−t v × n` together, `v = Σ_k P_k x²_k − x`. On plane faces `v` is along `n` by itself. On
+//! faceted curved ones a small part across the normal is left; the least change of the
+//! weights that removes it, with their sum kept, is
+//!
+//! ```text
+//! min Σ_k δ_k²   s.t.  Σ_k δ_k = 0,  Σ_k δ_k τ_k = −v_T        τ_k = (x²_k − x̄²)_T
+//! δ_k = −τ_k · (Σ_k τ_k τ_kᵀ)⁻¹ v_T
+//! ```
+//!
+//! By duality a rigid rotation of both sides then opens no contact (C10).
+
+use nalgebra::{Matrix2, Vector2, Vector3};
+
+/// Largest change of a weight. Beyond it the sides are not nearly parallel there: the
+/// weights stay, and the gap vector shows what is left.
+const LARGEST: f64 = 0.1;
+
+/// Spread of the positions, relative to the largest, that is none.
+const RANK: f64 = 1e-10;
+
+/// Corrects the weights in place; positions of side 2 in metre.
+pub(super) fn align(
+    weights: &mut [(usize, f64)],
+    positions: &[[f64; 3]],
+    from: [f64; 3],
+    normal: Vector3<f64>,
+    dimension: usize,
+) {
+    let axes = tangents(normal, dimension);
+    let across = |vector: Vector3<f64>| Vector2::from(axes.map(|axis| axis.dot(&vector)));
+    // Relative to x: large coordinates shall not cost digits.
+    let offsets = weights
+        .iter()
+        .map(|(k, _)| Vector3::from(positions[*k]) - Vector3::from(from));
+    let mut offsets: Vec<Vector2<f64>> = offsets.map(across).collect();
+    let stray = offsets.iter().zip(weights.iter());
+    let stray: Vector2<f64> = stray.map(|(offset, (_, weight))| offset * *weight).sum();
+    let mean = offsets.iter().sum::<Vector2<f64>>() / offsets.len() as f64;
+    let mut spread = Matrix2::zeros();
+    for offset in &mut offsets {
+        *offset -= mean;
+        spread += *offset * offset.transpose();
+    }
+    let multiplier = solve(spread, stray);
+    let changes = offsets.iter().map(|offset| -offset.dot(&multiplier));
+    if changes.clone().all(|change| change.abs() <= LARGEST) {
+        for ((_, weight), change) in weights.iter_mut().zip(changes) {
+            *weight += change;
+        }
+    }
+}
+
+/// Solves `spread · multiplier = stray` along the directions in which the positions spread.
+fn solve(spread: Matrix2<f64>, stray: Vector2<f64>) -> Vector2<f64> {
+    let eigen = spread.symmetric_eigen();
+    let least = RANK * eigen.eigenvalues.max();
+    let mut multiplier = Vector2::zeros();
+    for (value, direction) in eigen
+        .eigenvalues
+        .iter()
+        .zip(eigen.eigenvectors.column_iter())
+    {
+        if *value > least {
+            multiplier += direction * (direction.dot(&stray) / value);
+        }
+    }
+    multiplier
+}
+
+/// Two unit vectors across the normal; in 2D the second is zero.
+fn tangents(normal: Vector3<f64>, dimension: usize) -> [Vector3<f64>; 2] {
+    if dimension == 2 {
+        return [Vector3::z().cross(&normal), Vector3::zeros()];
+    }
+    let mut least = Vector3::zeros();
+    least[normal.abs().imin()] = 1.0;
+    let first = normal.cross(&least).normalize();
+    [first, normal.cross(&first)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SQUARE: [[f64; 3]; 4] = [
+        [0.0, 0.0, 0.3],
+        [1.0, 0.0, 0.3],
+        [1.0, 1.0, 0.3],
+        [0.0, 1.0, 0.3],
+    ];
+
+    fn stray(weights: &[(usize, f64)], from: Vector3<f64>, normal: Vector3<f64>) -> Vector3<f64> {
+        let terms = weights.iter();
+        let gap: Vector3<f64> = terms
+            .map(|(k, weight)| (Vector3::from(SQUARE[*k]) - from) * *weight)
+            .sum();
+        gap - normal * normal.dot(&gap)
+    }
+
+    #[test]
+    fn a_force_beside_its_reaction_is_brought_onto_one_line() {
+        // Equal weights act at (½, ½); the node is at (0.52, 0.47).
+        let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
+        let (from, normal) = (Vector3::new(0.52, 0.47, 0.0), Vector3::z());
+        align(&mut weights, &SQUARE, from.into(), normal, 3);
+        assert!(stray(&weights, from, normal).norm() < 1e-16);
+        assert!((weights.iter().map(|entry| entry.1).sum::<f64>() - 1.0).abs() < 1e-15);
+        // Least change: δ = ±½ · (0.02, −0.03) along x and y.
+        assert!(
+            (weights[0].1 - 0.25 + 0.01 - 0.015).abs() < 1e-15,
+            "{weights:?}"
+        );
+    }
+
+    #[test]
+    fn nodes_on_one_line_take_what_they_can() {
+        let mut weights = [(0, 0.5), (1, 0.5)];
+        let (from, normal) = (Vector3::new(0.52, 0.03, 0.0), Vector3::z());
+        align(&mut weights, &SQUARE, from.into(), normal, 3);
+        let left = stray(&weights, from, normal);
+        assert!(
+            (left - Vector3::new(0.0, -0.03, 0.0)).norm() < 1e-15,
+            "{left}"
+        );
+    }
+
+    #[test]
+    fn weights_far_beside_the_line_stay() {
+        let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
+        align(&mut weights, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), 3);
+        assert_eq!(weights, [0, 1, 2, 3].map(|k| (k, 0.25)));
+        let mut one = [(2, 1.0)];
+        align(&mut one, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), 3);
+        assert_eq!(one, [(2, 1.0)]);
+    }
+}

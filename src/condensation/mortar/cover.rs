@@ -1,0 +1,170 @@
+//! The parts of a facet that the other side covers, and by which facet.
+//!
+//! ```text
+//! facing    m · m² < −½                      m, m²: outward normals
+//! in reach  g > −depth                       g: distance along m; any distance in front
+//! nearest   least |g|                        where several layers lie over each other
+//! ```
+//!
+//! Sides that touch are parallel there; facets that are inclined by more than 60° to
+//! each other only meet at edges that turn a corner.
+
+use nalgebra::Vector3;
+
+use super::polygon::{Polygon, area, centroid, difference, intersection};
+use super::search::{Prism, Tree};
+use super::view::{Outline, View};
+use crate::body::{Facet, FacetGeometry, Mesh};
+
+/// Cosine between the outward normals of facets that face each other, at most.
+const FACING: f64 = -0.5;
+
+/// Area of a part, relative to the facet, that is round-off.
+const SLIVER: f64 = 1e-14;
+
+/// Common area of two parts, relative to the smaller, below which they lie side by side.
+const OVERLAP: f64 = 1e-9;
+
+/// The opposite side, ready to be looked at.
+pub(super) struct Opposite<'a> {
+    mesh: &'a Mesh,
+    facets: &'a [Facet],
+    geometries: &'a [FacetGeometry],
+    tree: Tree,
+    /// Depth behind a facet down to which overlap is believed, in metre.
+    depth: f64,
+}
+
+/// A part of a facet and the facet of the other side that covers it.
+#[derive(Clone)]
+pub(super) struct Part {
+    /// Number of the covering facet.
+    pub(super) opposite: usize,
+    /// The covering facet in the plane of the covered one.
+    pub(super) outline: Outline,
+    /// The covered area in that plane.
+    pub(super) polygon: Polygon,
+    /// Distance to the covering facet, in the plane's unit.
+    distance: f64,
+}
+
+impl<'a> Opposite<'a> {
+    pub(super) fn new(
+        mesh: &'a Mesh,
+        facets: &'a [Facet],
+        geometries: &'a [FacetGeometry],
+        depth: f64,
+    ) -> Self {
+        Self {
+            mesh,
+            facets,
+            geometries,
+            tree: Tree::new(mesh, facets),
+            depth,
+        }
+    }
+
+    /// Covered parts of a facet, and how many facets lie over it but look the same way.
+    pub(super) fn parts(&self, view: &View, outline: &Outline) -> (Vec<Part>, usize) {
+        let facet = outline.polygon();
+        let least = SLIVER * area(&facet);
+        let (mut parts, mut averted) = (Vec::new(), 0);
+        for index in self.tree.over(&Prism::new(view, &facet, self.depth)) {
+            let cosine = view
+                .normal
+                .dot(&Vector3::from(self.geometries[index].normal));
+            averted += usize::from(cosine > -FACING);
+            if cosine < FACING {
+                parts.extend(self.part(view, outline, &facet, least, index));
+            }
+        }
+        (nearest(parts, least), averted)
+    }
+
+    /// What one facet covers, if anything.
+    fn part(
+        &self,
+        view: &View,
+        facet: &Outline,
+        polygon: &Polygon,
+        least: f64,
+        opposite: usize,
+    ) -> Option<Part> {
+        let outline = view.outline(self.mesh, &self.facets[opposite]);
+        // A warped facet seen askew may fold over itself: then it hides what it covers.
+        if outline.least_turn(-1.0) <= 0.0 {
+            return None;
+        }
+        let polygon = intersection(&outline.polygon(), polygon);
+        if area(&polygon) <= least {
+            return None;
+        }
+        let centre = centroid(&polygon);
+        let distance = outline.height(&outline.shape(centre)) - facet.height(&facet.shape(centre));
+        (distance * view.size > -self.depth).then_some(Part {
+            opposite,
+            outline,
+            polygon,
+            distance,
+        })
+    }
+}
+
+/// Takes from every part what nearer parts cover as well.
+fn nearest(mut parts: Vec<Part>, least: f64) -> Vec<Part> {
+    parts.sort_by(|a, b| a.distance.abs().total_cmp(&b.distance.abs()));
+    let hidden_by = overlaps(&parts);
+    if hidden_by.is_empty() {
+        return parts;
+    }
+    let mut left: Vec<Vec<Polygon>> = parts.iter().map(|p| vec![p.polygon.clone()]).collect();
+    for (nearer, farther) in hidden_by {
+        let seen = std::mem::take(&mut left[farther]).into_iter();
+        let without = |polygon: Polygon| difference(&polygon, &parts[nearer].polygon, least);
+        left[farther] = seen.flat_map(without).collect();
+    }
+    let visible = parts.into_iter().zip(left);
+    visible
+        .flat_map(|(part, polygons)| {
+            polygons
+                .into_iter()
+                .map(move |polygon| Part { polygon, ..part })
+        })
+        .collect()
+}
+
+/// Pairs (nearer, farther) of parts that lie over each other, found by a sweep along x.
+fn overlaps(parts: &[Part]) -> Vec<(usize, usize)> {
+    let range = |part: &Part, axis: usize| {
+        let along = part.polygon.iter().map(|corner| corner[axis]);
+        let low = along.clone().fold(f64::INFINITY, f64::min);
+        (low, along.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let boxes: Vec<_> = parts
+        .iter()
+        .map(|part| [range(part, 0), range(part, 1)])
+        .collect();
+    let areas: Vec<f64> = parts.iter().map(|part| area(&part.polygon)).collect();
+    let mut order: Vec<usize> = (0..parts.len()).collect();
+    order.sort_by(|a, b| boxes[*a][0].0.total_cmp(&boxes[*b][0].0));
+    let mut pairs = Vec::new();
+    for (at, &one) in order.iter().enumerate() {
+        let [(_, right), (bottom, top)] = boxes[one];
+        let rest = order[at + 1..].iter();
+        for &other in rest.take_while(|other| boxes[**other][0].0 < right) {
+            let (low, high) = boxes[other][1];
+            let least = OVERLAP * areas[one].min(areas[other]);
+            // Neighbours share an edge: their boxes overlap by round-off, if at all.
+            let common = (right - boxes[other][0].0) * (top.min(high) - bottom.max(low));
+            if top <= low
+                || high <= bottom
+                || common <= least
+                || area(&intersection(&parts[one].polygon, &parts[other].polygon)) <= least
+            {
+                continue;
+            }
+            pairs.push((one.min(other), one.max(other)));
+        }
+    }
+    pairs
+}
