@@ -211,12 +211,12 @@ pub enum Error {
         largest: f64,
     },
 
-    /// A number that should point at a node, cell or material of the body does not.
+    /// A number that should point at a body, or at something of it, does not.
     #[error("{place}: {what} {index} does not exist; expected less than {count}")]
     UnknownIndex {
         /// Where the number stands.
         place: String,
-        /// What it should point at: `node`, `cell`, `material`.
+        /// What it should point at: `body`, `pair`, `node`, `cell`, `material`.
         what: &'static str,
         /// The number.
         index: usize,

@@ -451,7 +451,7 @@ fn the_summary_of_several_bodies_lists_pairs_and_names_the_worst_body() {
         "  contacts[0]          0      0      1       4.00000        8.00000",
         "  contacts[1]          1      1      0       6.00000        6.00000",
         "  equilibrium          3.0e0    5.0e-1  body `beam`, node 1",
-        "  force exchange         0         0",
+        "  force exchange           0         0",
     ] {
         assert!(text.lines().any(|found| found == line), "{line}\n{text}");
     }

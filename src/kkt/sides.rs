@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn a_motion_that_both_sides_share_is_no_relative_displacement() {
-        let together = [[5.0, 7.0].repeat(1), [5.0, 7.0].repeat(2)];
+        let together = [vec![5.0, 7.0], vec![5.0, 7.0, 5.0, 7.0]];
         assert_eq!(relative_displacement(&contact(), &together, 2), [0.0; 3]);
     }
 

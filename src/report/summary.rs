@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Balance, Report, Status};
+use super::{Balance, Defect, Report, Status};
 
 /// How many contact pairs the summary lists before it only counts them.
 const LISTED: usize = 8;
@@ -119,25 +119,26 @@ fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
 
 /// Equilibrium where it is worst; the body's name only says something beside another body.
 fn balances(text: &mut String, bodies: &[Balance]) -> std::fmt::Result {
-    let several = bodies.len() > 1;
-    let of = |body: &Balance| match several {
-        true => format!("body `{}`", body.name),
-        false => String::new(),
+    let of = |body: &Balance, node: String| match (bodies.len(), node.as_str()) {
+        (1, _) => node,
+        (_, "") => format!("body `{}`", body.name),
+        (_, node) => format!("body `{}`, {node}", body.name),
     };
     if let Some(body) = worst(bodies, |body| body.equilibrium.scaled) {
         let nodal = body.equilibrium;
-        let comma = if several { ", " } else { "" };
-        let place = format!("{}{comma}node {}", of(body), nodal.node);
+        let place = of(body, format!("node {}", nodal.node));
         violation(text, "equilibrium", nodal.value, nodal.scaled, &place)?;
     }
-    if let Some(body) = worst(bodies, |body| body.force_defect.scaled) {
-        let force = body.force_defect;
-        violation(text, "sum of forces", force.value, force.scaled, &of(body))?;
-    }
-    if let Some(body) = worst(bodies, |body| body.moment_defect.scaled) {
-        let moment = body.moment_defect;
-        let (value, scaled) = (moment.value, moment.scaled);
-        violation(text, "sum of moments", value, scaled, &of(body))?;
+    type Sum = fn(&Balance) -> Defect;
+    let sums: [(&str, Sum); 2] = [
+        ("sum of forces", |body| body.force_defect),
+        ("sum of moments", |body| body.moment_defect),
+    ];
+    for (name, defect) in sums {
+        if let Some(body) = worst(bodies, |body| defect(body).scaled) {
+            let (defect, place) = (defect(body), of(body, String::new()));
+            violation(text, name, defect.value, defect.scaled, &place)?;
+        }
     }
     Ok(())
 }
