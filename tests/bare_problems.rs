@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use approx::assert_abs_diff_eq;
 use dpana::condensation::{ContactProblem, Operator};
 use dpana::dpana::{Outcome, Settings, Status, Variant, solve};
 use dpana::kkt::ContactStatus;
@@ -113,10 +114,9 @@ fn one_contact_slips_as_by_hand() {
     // K u = f + r, f = (−1, 0.75): û = K⁻¹ f = (−0.25, 0.5); slips with u = (0, 0.5), r = (0.5, −0.25).
     let (_, outcome) = one_contact([0.25, 0.5]);
     assert_eq!(outcome.verdict.status, [ContactStatus::Slip]);
-    assert!(
-        (outcome.reaction[0] + 0.5).abs() < 1e-12 && (outcome.reaction[1] + 0.25).abs() < 1e-12
-    );
-    assert!((outcome.verdict.displacement[1] - 0.5).abs() < 1e-12);
+    assert_abs_diff_eq!(outcome.reaction[0], -0.5, epsilon = 1e-12);
+    assert_abs_diff_eq!(outcome.reaction[1], -0.25, epsilon = 1e-12);
+    assert_abs_diff_eq!(outcome.verdict.displacement[1], 0.5, epsilon = 1e-12);
 }
 
 #[test]

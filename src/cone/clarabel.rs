@@ -138,7 +138,7 @@ fn settings(tolerance: f64) -> Option<DefaultSettings<f64>> {
         .verbose(false)
         .presolve_enable(false)
         .equilibrate_enable(false)
-        .max_threads(1)
+        .max_threads(0)
         .direct_solve_method("faer".to_owned())
         .tol_gap_abs(tolerance)
         .tol_gap_rel(tolerance)

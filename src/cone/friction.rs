@@ -7,7 +7,7 @@ use crate::condensation::ContactProblem;
 const POINT: f64 = 1e-12;
 
 /// A contact without a cone may leave its disc by this many tolerances of the program.
-const SLACK: f64 = 10.0;
+const SLACK: f64 = 30.0;
 
 /// A contact whose friction exceeds this part of its bound is near its disc.
 const NEAR: f64 = 0.8;
