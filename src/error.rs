@@ -111,22 +111,6 @@ pub enum Error {
         left_out: usize,
     },
 
-    /// A node belongs to two contact pairs.
-    #[error(
-        "node {node} at {position:?} belongs to {first} and to {second}; \
-         expected at most one contact pair per node"
-    )]
-    NodeInTwoPairs {
-        /// The node.
-        node: usize,
-        /// Its position, in metre.
-        position: [f64; 3],
-        /// The contact pair that has it already.
-        first: String,
-        /// The contact pair that claims it too.
-        second: String,
-    },
-
     /// A support of a contact node is neither along nor across its normal.
     #[error(
         "{place}: node {node} at {position:?} has its normal along {normal:?} and is supported \

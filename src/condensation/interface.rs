@@ -95,11 +95,6 @@ impl Interface {
         self.rows.len() == self.unknowns && rows.all(|(i, row)| *row == [(i, 1.0)])
     }
 
-    /// Whether anything of this body moves with an unknown of the contact problem.
-    pub(crate) fn moves(&self, unknown: usize) -> bool {
-        !self.rows[unknown].is_empty()
-    }
-
     /// Adds `B_k v_k + given` (C11).
     pub(crate) fn add_displacement(&self, of_body: &[f64], displacement: &mut [f64]) {
         for (u, (row, given)) in displacement

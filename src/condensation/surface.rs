@@ -464,19 +464,6 @@ mod tests {
     }
 
     #[test]
-    fn a_node_in_two_pairs_is_refused_with_both_names() {
-        let body = block(CellKind::Quad4);
-        let mut second = pair(&body, &["bottom"]);
-        second.place = "contacts[1]".to_owned();
-        let found = find(&body, &[pair(&body, &["bottom"]), second]).unwrap_err();
-        let text = found.to_string();
-        assert!(
-            text.contains("contacts[0]") && text.contains("contacts[1]"),
-            "{text}"
-        );
-    }
-
-    #[test]
     fn flawed_pairs_are_refused_with_their_place() {
         let body = block(CellKind::Quad4);
         let mut rough = pair(&body, &["bottom"]);
