@@ -178,3 +178,115 @@ fn scales(problem: &ContactProblem) -> Vec<f64> {
 
 /// A compliance below this part of the largest does not scale its contact.
 const SMALLEST: f64 = 1e-6;
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::Operator;
+    use crate::cone::RigidContacts;
+    use crate::cone::blocks::Blocks;
+    use faer::Mat;
+
+    /// Compliance of every contact unknown, in m/N.
+    const C: f64 = 2e-6;
+
+    /// A plane pad on two springy feet, and its rigid motions.
+    fn feet(friction: [f64; 2], free: Vec<f64>) -> (ContactProblem, RigidContacts) {
+        let mut pad = Blocks::pad(2, 0.0);
+        for (touch, mu) in pad.touches.iter_mut().zip(friction) {
+            touch.friction = mu;
+        }
+        let operator =
+            Operator::from_compliance(faer::Scale(C) * Mat::<f64>::identity(4, 4)).unwrap();
+        let gaps = vec![0.0; 2];
+        let problem = ContactProblem::new(&[1, 1], friction.to_vec(), gaps, free, operator);
+        (problem.unwrap(), pad.contacts())
+    }
+
+    fn close(found: &[f64], expected: &[f64], tolerance: f64) -> bool {
+        found
+            .iter()
+            .zip(expected)
+            .all(|(a, b)| (a - b).abs() < tolerance)
+    }
+
+    #[test]
+    fn a_pad_on_springy_feet_sinks_and_follows_its_pull() {
+        // 1000 N down, 200 N along x: 500 N and 100 N per foot; u = G t + R α = 0 gives
+        // α = (C · 100, −C · 500, 0).
+        let (problem, contacts) = feet([0.5; 2], vec![0.0; 4]);
+        let mut program = CoulombProgram::new(&problem, contacts.modes()).unwrap();
+        let load = [200.0, -1000.0, 0.0];
+        let found = program.solve(&load, &[0.0; 2], 1e-10).unwrap();
+        assert!(
+            close(&found.reaction, &[-500.0, -100.0, -500.0, -100.0], 1e-5),
+            "{found:?}"
+        );
+        assert!(
+            close(&found.motion, &[C * 100.0, -C * 500.0, 0.0], 1e-11),
+            "{found:?}"
+        );
+        assert!(found.remainder < 1e-9);
+    }
+
+    #[test]
+    fn a_rigid_motion_in_the_free_displacement_only_moves_the_body_back() {
+        let (_, contacts) = feet([0.5; 2], vec![0.0; 4]);
+        let moved = contacts.velocity(&[0.3, -0.2, 5.0]);
+        let (problem, contacts) = feet([0.5; 2], moved);
+        let mut program = CoulombProgram::new(&problem, contacts.modes()).unwrap();
+        let found = program
+            .solve(&[200.0, -1000.0, 0.0], &[0.0; 2], 1e-10)
+            .unwrap();
+        assert!(
+            close(&found.reaction, &[-500.0, -100.0, -500.0, -100.0], 1e-5),
+            "{found:?}"
+        );
+        let expected = [C * 100.0 - 0.3, 0.2 - C * 500.0, -5.0];
+        assert!(close(&found.motion, &expected, 1e-9), "{found:?}");
+    }
+
+    #[test]
+    fn shifted_by_its_own_slip_the_program_knows_coulomb_s_law() {
+        // μ = 0.1 and 0.5, 1000 N down and 200 N along x: the first foot slips with 50 N, the second
+        // holds 150 N, so α_x = C · 150 and the slip is C · (150 − 50), along +x.
+        let (problem, contacts) = feet([0.1, 0.5], vec![0.0; 4]);
+        let mut program = CoulombProgram::new(&problem, contacts.modes()).unwrap();
+        let mut shift = [0.0; 2];
+        let mut found = program
+            .solve(&[200.0, -1000.0, 0.0], &shift, 1e-11)
+            .unwrap();
+        for _ in 0..10 {
+            let mut u = problem.displacement(&found.reaction);
+            for (u, rigid) in u.iter_mut().zip(contacts.velocity(&found.motion)) {
+                *u += rigid;
+            }
+            shift = [u[1].abs(), u[3].abs()];
+            found = program
+                .solve(&[200.0, -1000.0, 0.0], &shift, 1e-11)
+                .unwrap();
+        }
+        assert!(
+            close(&found.reaction, &[-500.0, -50.0, -500.0, -150.0], 1e-4),
+            "{found:?}"
+        );
+        assert!(
+            (shift[0] - C * 100.0).abs() < 1e-9 && shift[1] < 1e-9,
+            "{shift:?}"
+        );
+    }
+
+    #[test]
+    fn without_modes_it_is_a_supported_body() {
+        // u_N = û_N + C t_N = 0 at û_N = 1 mm: 500 N; μ = 0 leaves no friction.
+        let (problem, _) = feet([0.0; 2], vec![1e-3, 7e-3, -1e-3, 0.0]);
+        let mut program = CoulombProgram::new(&problem, Mat::zeros(4, 0).as_ref()).unwrap();
+        let found = program.solve(&[], &[0.0; 2], 1e-11).unwrap();
+        assert!(
+            close(&found.reaction, &[-500.0, 0.0, 0.0, 0.0], 1e-4),
+            "{found:?}"
+        );
+        assert!(CoulombProgram::new(&problem, Mat::zeros(3, 0).as_ref()).is_none());
+    }
+}

@@ -15,6 +15,7 @@ mod clarabel;
 mod coulomb;
 mod elimination;
 mod equilibrium;
+mod failure;
 mod friction;
 mod generators;
 mod least_friction;
@@ -26,6 +27,7 @@ mod velocity_basis;
 
 pub use coulomb::{CoulombProgram, CoulombSolution};
 pub use equilibrium::Equilibrium;
+pub use failure::{BodyMotion, Failure, FailureSentence};
 pub use friction::FrictionHalfStep;
 pub use least_friction::LeastFriction;
 pub use limit::Limit;

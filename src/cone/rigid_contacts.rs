@@ -6,8 +6,8 @@ use super::generators::Generators;
 use super::velocity_basis::{VelocityBasis, product};
 use crate::error::{Error, check_finite, check_length};
 
-/// A contact whose distance to sliding is below this part of the largest speed slides.
-const SLIDING: f64 = 1e-6;
+/// Velocities below this part of the largest are none.
+const MOVES: f64 = 1e-4;
 
 /// The contacts of floating bodies: which reactions can answer a load on the rigid motions?
 ///
@@ -104,24 +104,41 @@ impl RigidContacts {
         product(self.modes.as_ref(), motion)
     }
 
-    /// What the contacts do while `v = R α`: the speed that counts is that of the fastest sliding contact
+    /// The speed that counts in a velocity `v = R α`: that of the fastest sliding contact
     /// where one slides, else that of the fastest opening one; zero if none moves.
     pub(super) fn speed(&self, velocity: &[f64]) -> f64 {
-        let largest = velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-        let (mut sliding, mut any) = (0.0_f64, 0.0_f64);
-        for (block, mu) in self.offsets.windows(2).zip(&self.friction) {
-            let slip = slip(&velocity[block[0] + 1..block[1]]);
-            let normal = velocity[block[0]];
-            if normal + mu * slip > -SLIDING * largest * (1.0 + mu) {
-                sliding = sliding.max(slip);
-            }
-            any = any.max(normal.hypot(slip));
-        }
-        if sliding > SLIDING * largest {
-            sliding
+        let (sliding, opening) = self.sliding_and_opening(velocity);
+        let fastest = |contacts: &[usize], speed: fn(&[f64]) -> f64| {
+            let blocks = contacts
+                .iter()
+                .map(|&contact| self.block(velocity, contact));
+            blocks.map(speed).fold(0.0, f64::max)
+        };
+        if sliding.is_empty() {
+            fastest(&opening, |block| block[0].abs())
         } else {
-            any
+            fastest(&sliding, |block| slip(&block[1..]))
         }
+    }
+
+    /// Contacts that slide (they open no faster than friction lets them), and contacts that open.
+    pub(super) fn sliding_and_opening(&self, velocity: &[f64]) -> (Vec<usize>, Vec<usize>) {
+        let nothing = MOVES * velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        let (mut sliding, mut opening) = (Vec::new(), Vec::new());
+        for (contact, mu) in self.friction.iter().enumerate() {
+            let block = self.block(velocity, contact);
+            let slip = slip(&block[1..]);
+            if block[0] + mu * slip < -nothing * (1.0 + mu) {
+                opening.push(contact);
+            } else if slip > nothing {
+                sliding.push(contact);
+            }
+        }
+        (sliding, opening)
+    }
+
+    fn block<'a>(&self, velocity: &'a [f64], contact: usize) -> &'a [f64] {
+        &velocity[self.offsets[contact]..self.offsets[contact + 1]]
     }
 
     /// Refuses a load that does not belong to the modes.
