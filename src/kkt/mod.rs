@@ -10,6 +10,7 @@
 //! (K2)  f = (w·w / w·G w) w,   w = û + interference             load force, 1000 × floor
 //! (K3)  η = Σ [t_N (u_N − g₀) + t_T · u_T − μ t_N ‖u_T‖]        bipotential gap
 //! (K4)  K u = f + contact and support reactions                 equilibrium of the body
+//! (K5)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
 //! ```
 //!
 //! It shares no code with the solver: it never sees a cone program or a sweep, only
@@ -21,6 +22,7 @@ mod bipotential;
 mod body_state;
 mod certificate;
 mod coulomb;
+mod impossibility;
 mod judge;
 mod natural_map;
 mod resultant;
@@ -31,5 +33,6 @@ mod state;
 pub use balance::{Balance, WorstNode, balance};
 pub use body_state::{BodyState, global_force};
 pub use certificate::{Certificate, ContactStatus, Verdict, Worst};
+pub use impossibility::{Impossibility, impossibility};
 pub use judge::Judge;
 pub use resultant::{Defect, Resultant};
