@@ -1,21 +1,11 @@
-//! Whether admissible contact forces can hold a load.
+//! Whether admissible contact forces can hold a load, decided by the numbers of (H5).
 //!
-//! The distance of the load from what the contacts can hold is a program without special
-//! cases: always solvable, never unbounded, and its two sides are the two possible answers.
-//!
-//! ```text
-//! (H5)  min ‖Rᵀ t + e‖    s.t.  t ∈ K       =       max e·α    s.t.  R α ∈ K*,  ‖R α‖ ≤ 1
-//! ```
-//!
-//! `K* = { v : v_N + μ ‖v_T‖ ≤ 0 }` holds the velocities that no admissible reaction works against. If the
-//! distance is zero, `t` holds the load; if not, α proves that nothing does:
-//! `0 = α·(Rᵀ t + e) = (R α)·t + e·α ≥ e·α > 0` for whatever admissible `t`.
-//! Norms are those of [`VelocityBasis`](super::velocity_basis::VelocityBasis), so units do not matter.
+//! Both sides of (H5) are evidence by themselves: reactions that leave nothing of the load over, or a
+//! motion that no contact resists while the load works on it. The cone solver's own verdict is not asked.
 
-use super::clarabel::{Columns, ConeSizes, ConicProgram};
-use super::generators::Generators;
+use super::holdable::Holdable;
 use super::rigid_contacts::RigidContacts;
-use super::velocity_basis::{norm, product};
+use super::velocity_basis::norm;
 use crate::error::Error;
 
 /// A load is held if no more than this part of it is left over and nothing proves the contrary.
@@ -62,55 +52,52 @@ impl RigidContacts {
     /// A load of the wrong length, or one that is not finite.
     pub fn admissible(&self, load: &[f64]) -> Result<Equilibrium, Error> {
         self.check_load("load", load)?;
-        Ok(self.decide(self.friction(), load, None).0)
+        Ok(self.decide(self.friction(), load, None))
     }
 
-    /// Decides for `load + λ growing`, λ ≥ 0 free, and returns λ with the answer.
-    ///
-    /// A growing load is one more contact: its reaction `−λ ≤ 0` works on the velocity `−e_growing·α`.
+    /// Decides for `load + λ growing`, λ ≥ 0 free.
     pub(super) fn decide(
         &self,
         friction: &[f64],
         load: &[f64],
         growing: Option<&[f64]>,
-    ) -> (Equilibrium, f64) {
+    ) -> Equilibrium {
         if let Some(motion) = self.idle_motion(load) {
-            return (self.impossible(motion, load), 0.0);
+            return self.impossible(motion, load);
         }
-        let moved = self.basis.load(load);
-        let size = norm(moved.iter().copied());
+        let (load_moved, size) = self.unit_load(load);
         let unknowns = self.modes().nrows();
         if size == 0.0 {
             let reaction = vec![0.0; unknowns];
-            return (Equilibrium::Held { reaction }, 0.0);
+            return Equilibrium::Held { reaction };
         }
-        let moved: Vec<f64> = moved.iter().map(|e| e / size).collect();
-        let ray = growing.map(|growing| {
-            let moved = self.basis.load(growing);
-            let size = norm(moved.iter().copied());
-            let unit = if size > 0.0 { size.recip() } else { 0.0 };
-            (moved.iter().map(|e| e * unit).collect::<Vec<f64>>(), unit)
-        });
-        let generators = self.generators(friction);
-        let distance = Distance {
-            contacts: self,
-            generators: &generators,
-            ray: ray.as_ref().map(|(ray, _)| ray.as_slice()),
+        let growing = growing.map(|growing| self.unit_load(growing).0);
+        let holdable = Holdable::new(self, friction, growing.as_deref());
+        let Some((mut reaction, motion)) = holdable.distance(&load_moved, TOLERANCE) else {
+            return Equilibrium::Undecided { remainder: 1.0 };
         };
-        let undecided = (Equilibrium::Undecided { remainder: 1.0 }, 0.0);
-        let Some((reaction, factor, beta)) = distance.minimise(&moved) else {
-            return undecided;
-        };
-        let remainder = distance.remainder(&moved, &reaction, factor);
-        if distance.proves(friction, &moved, &beta) {
-            return (self.impossible(self.basis.amplitudes(&beta), load), 0.0);
+        if holdable.work(&load_moved, &motion) > ROUND_OFF
+            && holdable.work(&load_moved, &motion) > FAR * holdable.resistance(&motion)
+        {
+            return self.impossible(self.basis.amplitudes(&motion), load);
         }
-        if remainder <= HELD {
-            let unit = ray.map_or(0.0, |(_, unit)| unit);
-            let reaction = reaction.iter().map(|t| t * size).collect();
-            return (Equilibrium::Held { reaction }, factor * unit * size);
+        let remainder = holdable.balance(&load_moved, &mut reaction);
+        if remainder > HELD {
+            return Equilibrium::Undecided { remainder };
         }
-        (Equilibrium::Undecided { remainder }, factor)
+        reaction.truncate(unknowns);
+        reaction.iter_mut().for_each(|t| *t *= size);
+        Equilibrium::Held { reaction }
+    }
+
+    /// A load as the moving part of the contacts feels it, brought to unit size, and its size.
+    pub(super) fn unit_load(&self, load: &[f64]) -> (Vec<f64>, f64) {
+        let mut moved = self.basis.load(load);
+        let size = norm(moved.iter().copied());
+        if size > 0.0 {
+            moved.iter_mut().for_each(|e| *e /= size);
+        }
+        (moved, size)
     }
 
     /// An idle motion on which the load works, if there is one.
@@ -138,76 +125,6 @@ impl RigidContacts {
             *amplitude /= speed;
         }
         motion
-    }
-}
-
-/// (H5) in the variables β.
-struct Distance<'a> {
-    contacts: &'a RigidContacts,
-    generators: &'a Generators,
-    ray: Option<&'a [f64]>,
-}
-
-impl Distance<'_> {
-    /// `(t, λ, β)` for a load of unit size.
-    fn minimise(&self, load: &[f64]) -> Option<(Vec<f64>, f64, Vec<f64>)> {
-        let rays = usize::from(self.ray.is_some());
-        let rank = load.len();
-        let ball = rays + self.generators.size();
-        let mut columns = Columns::new();
-        for (j, velocity) in self.contacts.basis.velocities.col_iter().enumerate() {
-            if let Some(ray) = self.ray {
-                columns.push(0, -ray[j]);
-            }
-            let velocity: Vec<f64> = velocity.iter().copied().collect();
-            for (row, image) in self.generators.transpose(&velocity).iter().enumerate() {
-                columns.push(rays + row, -image);
-            }
-            columns.push(ball + 1 + j, -1.0);
-            columns.end_column();
-        }
-        let cones = self.generators.cones();
-        let mut second_order = cones.second_order.clone();
-        second_order.push(1 + rank);
-        let cones = ConeSizes {
-            zero: 0,
-            nonnegative: rays + cones.nonnegative,
-            second_order,
-        };
-        let linear: Vec<f64> = load.iter().map(|e| -e).collect();
-        let mut right = vec![0.0; ball + 1 + rank];
-        right[ball] = 1.0;
-        let mut program = ConicProgram::new(None, columns, &cones)?;
-        let solution = program.solve(&linear, &right, TOLERANCE)?;
-        let factor = if rays == 1 {
-            solution.multipliers[0]
-        } else {
-            0.0
-        };
-        let z = &solution.multipliers[rays..ball];
-        let unknowns = self.contacts.modes().nrows();
-        Some((self.generators.reaction(z, unknowns), factor, solution.x))
-    }
-
-    /// `‖Qᵀ t + e' + λ e'_growing‖`.
-    fn remainder(&self, load: &[f64], reaction: &[f64], factor: f64) -> f64 {
-        let answer = product(self.contacts.basis.velocities.transpose(), reaction);
-        let mut left: Vec<f64> = answer.iter().zip(load).map(|(a, e)| a + e).collect();
-        for (left, ray) in left.iter_mut().zip(self.ray.unwrap_or(&[])) {
-            *left += factor * ray;
-        }
-        norm(left.into_iter())
-    }
-
-    /// Whether the motion β proves that nothing holds the load.
-    fn proves(&self, friction: &[f64], load: &[f64], beta: &[f64]) -> bool {
-        let velocity = product(self.contacts.basis.velocities.as_ref(), beta);
-        let dot = |a: &[f64]| a.iter().zip(beta).map(|(a, b)| a * b).sum::<f64>();
-        let mut resistance = self.contacts.resistance(friction, &velocity);
-        if let Some(ray) = self.ray {
-            resistance = resistance.max(-dot(ray));
-        }
-        dot(load) > ROUND_OFF && dot(load) > FAR * resistance
     }
 }
 

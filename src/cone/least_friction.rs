@@ -95,7 +95,7 @@ impl RigidContacts {
 
     fn at_multiple(&self, multiple: f64, load: &[f64]) -> Equilibrium {
         let friction: Vec<f64> = self.friction().iter().map(|mu| multiple * mu).collect();
-        self.decide(&friction, load, None).0
+        self.decide(&friction, load, None)
     }
 }
 

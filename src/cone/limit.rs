@@ -9,10 +9,10 @@
 //! may open as they slide (`v_N = −μ ‖v_T‖`); under Coulomb's law, where they do not, no factor above λ
 //! is admissible, and whether a factor below it is reached depends on the elastic bodies.
 
-use super::clarabel::{Columns, ConicProgram};
 use super::equilibrium::{Equilibrium, HELD, TOLERANCE};
+use super::holdable::Holdable;
 use super::rigid_contacts::RigidContacts;
-use super::velocity_basis::{norm, product};
+use super::velocity_basis::norm;
 use crate::error::Error;
 
 /// Largest difference of the two sides of (H6), relative to λ, that counts as an answer.
@@ -59,14 +59,14 @@ impl RigidContacts {
         if let Some(motion) = self.idle_motion(growing) {
             return Ok(self.balanced(fixed, growing, motion));
         }
-        match self.decide(self.friction(), fixed, Some(growing)).0 {
+        match self.decide(self.friction(), fixed, Some(growing)) {
             Equilibrium::Held { .. } => {}
             Equilibrium::Impossible { motion, excess } => {
                 return Ok(Limit::Never { motion, excess });
             }
             Equilibrium::Undecided { .. } => return Ok(Limit::Undecided),
         }
-        Ok(match self.decide(self.friction(), growing, None).0 {
+        Ok(match self.decide(self.friction(), growing, None) {
             Equilibrium::Held { .. } => Limit::Unbounded,
             Equilibrium::Undecided { .. } => Limit::Undecided,
             Equilibrium::Impossible { motion, .. } if norm(fixed.iter().copied()) == 0.0 => {
@@ -92,7 +92,7 @@ impl RigidContacts {
             .zip(growing)
             .map(|(f, g)| f + factor * g)
             .collect();
-        match self.decide(self.friction(), &total, None).0 {
+        match self.decide(self.friction(), &total, None) {
             Equilibrium::Held { reaction } => Limit::Finite {
                 factor,
                 motion,
@@ -106,49 +106,23 @@ impl RigidContacts {
         }
     }
 
-    /// (H6) for loads with a finite, attained limit.
+    /// (H6) for loads with a finite, attained limit; `None` if its two sides do not meet.
     fn largest(&self, fixed: &[f64], growing: &[f64]) -> Option<Limit> {
-        let unit = |load: &[f64]| {
-            let moved = self.basis.load(load);
-            let size = norm(moved.iter().copied());
-            let unit: Vec<f64> = moved.iter().map(|e| e / size).collect();
-            (unit, size)
-        };
-        let ((held, size), (pulled, growth)) = (unit(fixed), unit(growing));
-        let generators = self.generators(self.friction());
-        let mut columns = Columns::new();
-        for (j, velocity) in self.basis.velocities.col_iter().enumerate() {
-            columns.push(0, -pulled[j]);
-            let velocity: Vec<f64> = velocity.iter().copied().collect();
-            for (row, image) in generators.transpose(&velocity).iter().enumerate() {
-                columns.push(1 + row, -image);
-            }
-            columns.end_column();
-        }
-        let mut cones = generators.cones().clone();
-        cones.nonnegative += 1;
-        let linear: Vec<f64> = held.iter().map(|e| -e).collect();
-        let mut right = vec![0.0; 1 + generators.size()];
-        right[0] = -1.0;
-        let solution =
-            ConicProgram::new(None, columns, &cones)?.solve(&linear, &right, TOLERANCE)?;
+        let ((held, size), (pulled, growth)) = (self.unit_load(fixed), self.unit_load(growing));
+        let holdable = Holdable::new(self, self.friction(), Some(&pulled));
+        let (mut reaction, motion) = holdable.limit(&held, &pulled, TOLERANCE)?;
+        let remainder = holdable.balance(&held, &mut reaction);
+        let factor = -reaction.pop()?;
 
-        let factor = solution.multipliers[0];
-        let reaction = generators.reaction(&solution.multipliers[1..], self.modes().nrows());
-        let answer = product(self.basis.velocities.transpose(), &reaction);
-        let left = (0..held.len()).map(|k| answer[k] + held[k] + factor * pulled[k]);
-        let dot = |load: &[f64]| {
-            load.iter()
-                .zip(&solution.x)
-                .map(|(e, b)| e * b)
-                .sum::<f64>()
-        };
-        let bound = -dot(&held) / dot(&pulled);
-        let settled = norm(left) <= HELD * (1.0 + factor)
-            && (bound - factor).abs() <= DUALITY * factor.max(SMALL);
+        // For any motion: λ e_growing·α = −e_fixed·α − t·R α ≤ −e_fixed·α + resistance Σ −t_N.
+        let total: f64 = holdable.normal_sum(&reaction);
+        let slack = holdable.resistance(&motion) * total;
+        let above = (slack - holdable.work(&held, &motion)) / holdable.work(&pulled, &motion);
+        let settled = remainder <= HELD * (1.0 + factor)
+            && (above - factor).abs() <= DUALITY * factor.max(SMALL);
         settled.then(|| Limit::Finite {
             factor: factor * size / growth,
-            motion: self.at_unit_speed(self.basis.amplitudes(&solution.x)),
+            motion: self.at_unit_speed(self.basis.amplitudes(&motion)),
             reaction: reaction.iter().map(|t| t * size).collect(),
         })
     }

@@ -2,7 +2,6 @@
 
 use faer::{Mat, MatRef};
 
-use super::generators::Generators;
 use super::velocity_basis::{VelocityBasis, product};
 use crate::error::{Error, check_finite, check_length};
 
@@ -146,24 +145,9 @@ impl RigidContacts {
         check_length(place, self.modes.ncols(), load.len())?;
         check_finite(place, load)
     }
-
-    /// Coulomb's cones for coefficients of friction that may differ from the contacts' own,
-    /// scaled to the velocities of the basis.
-    pub(super) fn generators(&self, friction: &[f64]) -> Generators {
-        let size = (self.contacts() as f64).sqrt();
-        let scale: Vec<f64> = friction.iter().map(|mu| size / mu.max(1.0)).collect();
-        Generators::new(&self.offsets, friction, &scale)
-    }
-
-    /// Largest `v_N + μ ‖v_T‖`, or zero: what keeps a motion from being free of resistance.
-    pub(super) fn resistance(&self, friction: &[f64], velocity: &[f64]) -> f64 {
-        let blocks = self.offsets.windows(2).zip(friction);
-        let each = blocks
-            .map(|(block, mu)| velocity[block[0]] + mu * slip(&velocity[block[0] + 1..block[1]]));
-        each.fold(0.0, f64::max)
-    }
 }
 
-fn slip(tangential: &[f64]) -> f64 {
+/// `‖v_T‖` of a tangential block.
+pub(super) fn slip(tangential: &[f64]) -> f64 {
     tangential.iter().fold(0.0, |sum, v| f64::hypot(sum, *v))
 }
