@@ -8,8 +8,11 @@ use super::rigid_contacts::RigidContacts;
 use super::velocity_basis::norm;
 use crate::error::Error;
 
-/// A load is held if no more than this part of it is left over and nothing proves the contrary.
-pub(super) const HELD: f64 = 1e-9;
+/// A load is held if no more than this part of it is left over.
+pub(super) const HELD: f64 = 1e-11;
+
+/// It still counts as held if no more than this is left over and no motion proves the contrary.
+const TOLERATED: f64 = 1e-9;
 
 /// Less than this part of the load is round-off of the solver.
 const ROUND_OFF: f64 = 1e-11;
@@ -17,9 +20,13 @@ const ROUND_OFF: f64 = 1e-11;
 /// Tolerance asked of the cone solver.
 pub(super) const TOLERANCE: f64 = 1e-12;
 
-/// A motion that the contacts resist a little proves that an equilibrium would take reactions of
-/// at least work / resistance; beyond this multiple of the load there is none.
-const FAR: f64 = 1e3;
+/// A motion that the contacts resist a little proves that an equilibrium would take reactions of at least
+/// work / resistance: beyond this multiple of the load they count as none. (On the edge of a jam
+/// ever less friction is made up for by ever larger reactions.)
+const FAR: f64 = 1e6;
+
+/// Proximal steps from what the cone solver left, where that is no evidence yet.
+const REFINEMENTS: usize = 10;
 
 /// Whether contact holds a load, with the evidence.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,21 +80,32 @@ impl RigidContacts {
         }
         let growing = growing.map(|growing| self.unit_load(growing).0);
         let holdable = Holdable::new(self, friction, growing.as_deref());
-        let Some((mut reaction, motion)) = holdable.distance(&load_moved, TOLERANCE) else {
-            return Equilibrium::Undecided { remainder: 1.0 };
+        let undecided = |remainder| Equilibrium::Undecided { remainder };
+        let held = |mut reaction: Vec<f64>| {
+            reaction.truncate(unknowns);
+            reaction.iter_mut().for_each(|t| *t *= size);
+            Equilibrium::Held { reaction }
         };
-        if holdable.work(&load_moved, &motion) > ROUND_OFF
-            && holdable.work(&load_moved, &motion) > FAR * holdable.resistance(&motion)
-        {
+        let Some((mut reaction, mut motion)) = holdable.distance(&load_moved, TOLERANCE) else {
+            return undecided(1.0);
+        };
+        if proves(&holdable, &load_moved, &motion) {
             return self.impossible(self.basis.amplitudes(&motion), load);
         }
-        let remainder = holdable.balance(&load_moved, &mut reaction);
-        if remainder > HELD {
-            return Equilibrium::Undecided { remainder };
+        let mut remainder = holdable.balance(&load_moved, &mut reaction);
+        for _ in 0..REFINEMENTS {
+            if remainder <= HELD {
+                return held(reaction);
+            }
+            (reaction, motion, remainder) = holdable.separate(&load_moved, &reaction, remainder);
+            if proves(&holdable, &load_moved, &motion) {
+                return self.impossible(self.basis.amplitudes(&motion), load);
+            }
         }
-        reaction.truncate(unknowns);
-        reaction.iter_mut().for_each(|t| *t *= size);
-        Equilibrium::Held { reaction }
+        if remainder > TOLERATED {
+            return undecided(remainder);
+        }
+        held(reaction)
     }
 
     /// A load as the moving part of the contacts feels it, brought to unit size, and its size.
@@ -103,7 +121,7 @@ impl RigidContacts {
     /// An idle motion on which the load works, if there is one.
     pub(super) fn idle_motion(&self, load: &[f64]) -> Option<Vec<f64>> {
         let idle = self.basis.idle_load(load);
-        let works = norm(idle.iter().copied()) > HELD * self.basis.load_size(load);
+        let works = norm(idle.iter().copied()) > TOLERATED * self.basis.load_size(load);
         works.then(|| self.basis.idle_amplitudes(&idle))
     }
 
@@ -118,7 +136,7 @@ impl RigidContacts {
     pub(super) fn at_unit_speed(&self, mut motion: Vec<f64>) -> Vec<f64> {
         let amplitude = self.basis.largest_amplitude(&motion);
         let mut speed = self.speed(&self.velocity(&motion));
-        if speed <= HELD * amplitude {
+        if speed <= TOLERATED * amplitude {
             speed = amplitude;
         }
         for amplitude in &mut motion {
@@ -126,6 +144,12 @@ impl RigidContacts {
         }
         motion
     }
+}
+
+/// Whether a motion is evidence that nothing holds the load.
+fn proves(holdable: &Holdable, load: &[f64], motion: &[f64]) -> bool {
+    let work = holdable.work(load, motion);
+    work > ROUND_OFF && work > FAR * holdable.resistance(motion)
 }
 
 #[cfg(test)]

@@ -18,9 +18,9 @@ use faer::Mat;
 
 use super::clarabel::{Columns, ConeSizes, ConicProgram};
 use super::generators::Generators;
-use super::nearest::nearest_in_equilibrium;
+use super::nearest::Projection;
 use super::rigid_contacts::{RigidContacts, slip};
-use super::velocity_basis::product;
+use super::velocity_basis::{norm, product};
 
 /// Contacts, and a growing load as the last of them, in the velocities Q.
 pub(super) struct Holdable {
@@ -129,14 +129,57 @@ impl Holdable {
     }
 
     /// Brings reactions into equilibrium and returns what is left of `Qᵀ t + e`.
-    pub(super) fn balance(&self, load: &[f64], reaction: &mut [f64]) -> f64 {
-        nearest_in_equilibrium(
-            self.velocities.as_ref(),
-            &self.offsets,
-            &self.friction,
-            load,
-            reaction,
-        )
+    pub(super) fn balance(&self, load: &[f64], reaction: &mut Vec<f64>) -> f64 {
+        let found = self
+            .projection()
+            .nearest(reaction, load, 0.0, vec![0.0; load.len()]);
+        *reaction = found.reaction;
+        found.remainder
+    }
+
+    /// One proximal step for (H5) from `reaction`: better reactions, the motion β along which the rest of
+    /// the load pulls, and the size of that rest.
+    pub(super) fn separate(
+        &self,
+        load: &[f64],
+        reaction: &[f64],
+        softness: f64,
+    ) -> (Vec<f64>, Vec<f64>, f64) {
+        let found = self
+            .projection()
+            .nearest(reaction, load, softness, vec![0.0; load.len()]);
+        let size = norm(found.gamma.iter().copied());
+        let motion = found.gamma.iter().map(|g| -g / size.max(f64::MIN_POSITIVE));
+        (found.reaction, motion.collect(), found.remainder)
+    }
+
+    /// One proximal step of length σ for (H6) from reactions `t` and the motion β:
+    /// `min −λ + ‖s − t‖²/2σ  s.t.  Qᵀ s + e + λ g = 0,  s ∈ K`, whose multipliers are the next β.
+    ///
+    /// Returns reactions, motion, and what is left of the equations.
+    pub(super) fn sharpen(
+        &self,
+        load: &[f64],
+        reaction: &[f64],
+        motion: &[f64],
+        length: f64,
+    ) -> (Vec<f64>, Vec<f64>, f64) {
+        let mut target = reaction.to_vec();
+        if let Some(last) = target.last_mut() {
+            *last -= length;
+        }
+        let gamma = motion.iter().map(|b| -length * b).collect();
+        let found = self.projection().nearest(&target, load, 0.0, gamma);
+        let motion = found.gamma.iter().map(|g| -g / length).collect();
+        (found.reaction, motion, found.remainder)
+    }
+
+    fn projection(&self) -> Projection<'_> {
+        Projection {
+            q: self.velocities.as_ref(),
+            offsets: &self.offsets,
+            friction: &self.friction,
+        }
     }
 
     /// `e·β`.

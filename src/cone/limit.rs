@@ -18,6 +18,12 @@ use crate::error::Error;
 /// Largest difference of the two sides of (H6), relative to λ, that counts as an answer.
 const DUALITY: f64 = 1e-8;
 
+/// The two sides are brought this close if they can be.
+const SHARP: f64 = 1e-10;
+
+/// Proximal steps from the cone solver's answer.
+const REFINEMENTS: usize = 12;
+
 /// A factor smaller than this, loads compared as the contacts feel them, is right to its 1e-8th only.
 const SMALL: f64 = 1e-3;
 
@@ -107,20 +113,41 @@ impl RigidContacts {
     }
 
     /// (H6) for loads with a finite, attained limit; `None` if its two sides do not meet.
+    ///
+    /// The cone solver's answer is sharpened by proximal steps until the reactions, which prove that λ is
+    /// held, and the motion, which proves that more is not, agree.
     fn largest(&self, fixed: &[f64], growing: &[f64]) -> Option<Limit> {
         let ((held, size), (pulled, growth)) = (self.unit_load(fixed), self.unit_load(growing));
         let holdable = Holdable::new(self, self.friction(), Some(&pulled));
-        let (mut reaction, motion) = holdable.limit(&held, &pulled, TOLERANCE)?;
-        let remainder = holdable.balance(&held, &mut reaction);
-        let factor = -reaction.pop()?;
-
-        // For any motion: λ e_growing·α = −e_fixed·α − t·R α ≤ −e_fixed·α + resistance Σ −t_N.
-        let total: f64 = holdable.normal_sum(&reaction);
-        let slack = holdable.resistance(&motion) * total;
-        let above = (slack - holdable.work(&held, &motion)) / holdable.work(&pulled, &motion);
-        let settled = remainder <= HELD * (1.0 + factor)
-            && (above - factor).abs() <= DUALITY * factor.max(SMALL);
-        settled.then(|| Limit::Finite {
+        let (mut reaction, mut motion) = holdable.limit(&held, &pulled, TOLERANCE)?;
+        let mut remainder = holdable.balance(&held, &mut reaction);
+        let (mut below, mut above) = ((0.0, None), (f64::INFINITY, None));
+        let mut length = 1.0;
+        for _ in 0..REFINEMENTS {
+            let factor = -reaction.last()?;
+            if remainder <= HELD * (1.0 + factor) && (factor > below.0 || below.1.is_none()) {
+                below = (factor, Some(reaction.clone()));
+            }
+            // For any motion: λ g·β = −e·β − t·Q β ≤ −e·β + resistance · Σ −t_N.
+            let slack = holdable.resistance(&motion) * holdable.normal_sum(&reaction);
+            let bound = (slack - holdable.work(&held, &motion)) / holdable.work(&pulled, &motion);
+            if bound < above.0 {
+                above = (bound, Some(motion.clone()));
+            }
+            if above.0 - below.0 <= SHARP * below.0 {
+                break;
+            }
+            (reaction, motion, remainder) = holdable.sharpen(&held, &reaction, &motion, length);
+            length *= 2.0;
+        }
+        let ((factor, Some(mut reaction)), (bound, Some(motion))) = (below, above) else {
+            return None;
+        };
+        if bound - factor > DUALITY * factor.max(SMALL) {
+            return None;
+        }
+        reaction.pop();
+        Some(Limit::Finite {
             factor: factor * size / growth,
             motion: self.at_unit_speed(self.basis.amplitudes(&motion)),
             reaction: reaction.iter().map(|t| t * size).collect(),

@@ -16,102 +16,114 @@ use super::velocity_basis::{norm, product};
 /// Newton steps; the start is good, so few are needed.
 const STEPS: usize = 40;
 
-/// What is left of the load when no more is to be gained.
+/// What is left of the equations when no more is to be gained.
 const ENOUGH: f64 = 1e-15;
 
-/// Replaces `reaction` by the nearest admissible one in equilibrium with `load` and returns `‖Qᵀ s + e‖`.
-///
-/// Blocks begin at `offsets` (their end appended), normal first; `friction` per contact. If the equations
-/// have no solution, the reaction is the best that was found.
-pub(super) fn nearest_in_equilibrium(
-    q: MatRef<'_, f64>,
-    offsets: &[usize],
-    friction: &[f64],
-    load: &[f64],
-    reaction: &mut [f64],
-) -> f64 {
-    let start = reaction.to_vec();
-    let cones = Cones { offsets, friction };
-    let at = |gamma: &[f64]| {
-        let moved = product(q, gamma);
-        let trial: Vec<f64> = start.iter().zip(moved).map(|(t, m)| t + m).collect();
-        let nearest = cones.project(&trial);
-        let answer = product(q.transpose(), &nearest);
-        let left: Vec<f64> = answer.iter().zip(load).map(|(a, e)| a + e).collect();
-        let work: f64 = load.iter().zip(gamma).map(|(e, g)| e * g).sum();
-        let potential = 0.5 * nearest.iter().map(|t| t * t).sum::<f64>() + work;
+/// Shortest part of a Newton step that is tried.
+const SHORTEST: f64 = 1e-6;
+
+/// Regularisation of the Newton matrix relative to its diagonal, and to the defect.
+const PIVOT: f64 = 1e-14;
+const DAMPING: f64 = 1e-3;
+
+/// Coulomb's cones, block by block, and the velocities Q.
+#[derive(Clone, Copy)]
+pub(super) struct Projection<'a> {
+    pub(super) q: MatRef<'a, f64>,
+    /// First unknown of every block, and their end.
+    pub(super) offsets: &'a [usize],
+    /// Per block.
+    pub(super) friction: &'a [f64],
+}
+
+/// The nearest reactions, and what led to them.
+#[derive(Clone, Debug)]
+pub(super) struct Nearest {
+    pub(super) reaction: Vec<f64>,
+    pub(super) gamma: Vec<f64>,
+    /// `‖Qᵀ s + e‖`.
+    pub(super) remainder: f64,
+    /// Largest departure from the equations.
+    defect: f64,
+}
+
+struct State {
+    trial: Vec<f64>,
+    nearest: Nearest,
+    /// Gradient in γ.
+    left: Vec<f64>,
+    potential: f64,
+}
+
+impl Projection<'_> {
+    /// The admissible reactions nearest to `target` in equilibrium with `load`, sought from γ on.
+    ///
+    /// With a softness ε > 0 the equations are `Qᵀ s + e + ε γ = 0`: they then have a solution for every load, and
+    /// what is left of it pulls along `−γ`. Without a solution the best that was found is returned.
+    pub(super) fn nearest(
+        &self,
+        target: &[f64],
+        load: &[f64],
+        softness: f64,
+        gamma: Vec<f64>,
+    ) -> Nearest {
+        let at = |gamma: Vec<f64>| self.state(target, load, softness, gamma);
+        let mut state = at(gamma);
+        let mut best = state.nearest.clone();
+        for _ in 0..STEPS {
+            if best.defect <= ENOUGH {
+                break;
+            }
+            let Some(step) = self.newton_step(&state, softness) else {
+                break;
+            };
+            let slope: f64 = step.iter().zip(&state.left).map(|(s, l)| s * l).sum();
+            let mut length = 1.0;
+            state = loop {
+                let gamma = state.nearest.gamma.iter().zip(&step);
+                let next = at(gamma.map(|(g, s)| g + length * s).collect());
+                let falls = next.potential <= state.potential + 1e-4 * length * slope
+                    || next.nearest.defect < 0.9 * state.nearest.defect;
+                if falls || length < SHORTEST {
+                    break next;
+                }
+                length *= 0.5;
+            };
+            if state.nearest.defect < best.defect {
+                best = state.nearest.clone();
+            }
+        }
+        best
+    }
+
+    fn state(&self, target: &[f64], load: &[f64], softness: f64, gamma: Vec<f64>) -> State {
+        let mut trial = product(self.q, &gamma);
+        trial.iter_mut().zip(target).for_each(|(m, t)| *m += t);
+        let reaction = self.project(&trial);
+        let mut left = product(self.q.transpose(), &reaction);
+        left.iter_mut().zip(load).for_each(|(l, e)| *l += e);
+        let remainder = norm(left.iter().copied());
+        left.iter_mut()
+            .zip(&gamma)
+            .for_each(|(l, g)| *l += softness * g);
+        let square = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>();
+        let work: f64 = load.iter().zip(&gamma).map(|(e, g)| e * g).sum();
+        let potential = 0.5 * square(&reaction) + 0.5 * softness * square(&gamma) + work;
+        let defect = norm(left.iter().copied());
+        let nearest = Nearest {
+            reaction,
+            gamma,
+            remainder,
+            defect,
+        };
         State {
             trial,
             nearest,
             left,
             potential,
         }
-    };
-    let mut gamma = vec![0.0; load.len()];
-    let mut state = at(&gamma);
-    let mut best = norm(state.left.iter().copied());
-    reaction.copy_from_slice(&state.nearest);
-    for _ in 0..STEPS {
-        let size = norm(state.left.iter().copied());
-        if best <= ENOUGH {
-            break;
-        }
-        let Some(step) = cones.newton_step(q, &state, size) else {
-            break;
-        };
-        let slope: f64 = step.iter().zip(&state.left).map(|(s, l)| s * l).sum();
-        let mut length = 1.0;
-        let next = loop {
-            let trial: Vec<f64> = gamma
-                .iter()
-                .zip(&step)
-                .map(|(g, s)| g + length * s)
-                .collect();
-            let next = at(&trial);
-            let falls = next.potential <= state.potential + 1e-4 * length * slope
-                || norm(next.left.iter().copied()) < 0.9 * size;
-            if falls || length < 1e-6 {
-                gamma = trial;
-                break next;
-            }
-            length *= 0.5;
-        };
-        state = next;
-        let size = norm(state.left.iter().copied());
-        if size < best {
-            best = size;
-            reaction.copy_from_slice(&state.nearest);
-        }
     }
-    best
-}
 
-struct State {
-    trial: Vec<f64>,
-    nearest: Vec<f64>,
-    left: Vec<f64>,
-    potential: f64,
-}
-
-/// Coulomb's cones, block by block.
-struct Cones<'a> {
-    offsets: &'a [usize],
-    friction: &'a [f64],
-}
-
-/// Where a block lies.
-enum Place {
-    Inside,
-    /// The nearest point is the apex.
-    Apex,
-    /// The nearest point has this normal pressure `p` and lies on the edge.
-    Edge {
-        pressure: f64,
-        tangential: f64,
-    },
-}
-
-impl Cones<'_> {
     fn blocks(&self) -> impl Iterator<Item = (std::ops::Range<usize>, f64)> + '_ {
         let blocks = self.offsets.windows(2).zip(self.friction);
         blocks.map(|(block, mu)| (block[0]..block[1], *mu))
@@ -142,30 +154,43 @@ impl Cones<'_> {
         nearest
     }
 
-    /// `−(Qᵀ Π' Q + ε)⁻¹ (Qᵀ s + e)`.
-    fn newton_step(&self, q: MatRef<'_, f64>, state: &State, size: f64) -> Option<Vec<f64>> {
-        let rank = q.ncols();
-        let mut turned = Mat::<f64>::zeros(q.nrows(), rank);
+    /// `−(Qᵀ Π' Q + ε)⁻¹` times the gradient.
+    fn newton_step(&self, state: &State, softness: f64) -> Option<Vec<f64>> {
+        let rank = self.q.ncols();
+        let mut turned = Mat::<f64>::zeros(self.q.nrows(), rank);
         for (block, mu) in self.blocks() {
             let (start, count) = (block.start, block.len());
             let slope = derivative(&state.trial[block], mu);
             for j in 0..rank {
                 for (row, slopes) in slope[..count].iter().enumerate() {
-                    turned[(start + row, j)] =
-                        (0..count).map(|k| slopes[k] * q[(start + k, j)]).sum();
+                    let terms = (0..count).map(|k| slopes[k] * self.q[(start + k, j)]);
+                    turned[(start + row, j)] = terms.sum();
                 }
             }
         }
-        let mut form = q.transpose() * turned;
+        let mut form = self.q.transpose() * turned;
         let largest = (0..rank).map(|j| form[(j, j)]).fold(0.0, f64::max);
+        let shift = softness + PIVOT * largest + DAMPING * state.nearest.defect.min(DAMPING);
         for j in 0..rank {
-            form[(j, j)] += 1e-14 * largest + size.min(1e-3) * 1e-3;
+            form[(j, j)] += shift;
         }
         let factor = form.llt(Side::Lower).ok()?;
         let step = factor.solve(&Col::from_fn(rank, |j| -state.left[j]));
         let step: Vec<f64> = step.iter().copied().collect();
         step.iter().all(|s| s.is_finite()).then_some(step)
     }
+}
+
+/// Where a block lies.
+enum Place {
+    Inside,
+    /// The nearest point is the apex.
+    Apex,
+    /// The nearest point has this normal pressure `p` and lies on the edge.
+    Edge {
+        pressure: f64,
+        tangential: f64,
+    },
 }
 
 fn place(t: &[f64], mu: f64) -> Place {
@@ -226,7 +251,9 @@ mod tests {
 
     #[test]
     fn a_reaction_outside_its_cone_goes_to_the_nearest_edge_or_the_apex() {
-        let cones = Cones {
+        let q = Mat::zeros(8, 0);
+        let cones = Projection {
+            q: q.as_ref(),
             offsets: &[0, 3, 5, 6, 8],
             friction: &[0.5, 1.0, 0.3, 0.0],
         };
@@ -242,7 +269,9 @@ mod tests {
             ([0.5, 2.0, 1.0], 0.9),
             ([-4.0, 1.0, 0.2], 0.5),
         ] {
-            let cones = Cones {
+            let q = Mat::zeros(3, 0);
+            let cones = Projection {
+                q: q.as_ref(),
                 offsets: &[0, 3],
                 friction: &[mu],
             };
@@ -266,26 +295,33 @@ mod tests {
     fn equilibrium_is_reached_to_the_last_digit_and_the_cones_are_kept() {
         // Two contacts side by side, μ = 0.5, under (x, down) = (0.9, 2): a start that is off by 1e-3.
         let q = mat![[0.0, -1.0], [1.0, 0.0], [0.0, -1.0], [1.0, 0.0]];
-        let mut reaction = [-1.001, -0.5, -0.999, -0.3];
-        let left = nearest_in_equilibrium(
-            q.as_ref(),
-            &[0, 2, 4],
-            &[0.5; 2],
+        let cones = Projection {
+            q: q.as_ref(),
+            offsets: &[0, 2, 4],
+            friction: &[0.5; 2],
+        };
+        let found = cones.nearest(
+            &[-1.001, -0.5, -0.999, -0.3],
             &[0.9, -2.0],
-            &mut reaction,
+            0.0,
+            vec![0.0; 2],
         );
-        assert!(left < 1e-15, "{left:e}");
-        assert!((reaction[1] + reaction[3] + 0.9).abs() < 1e-15);
-        assert!((reaction[0] + reaction[2] + 2.0).abs() < 1e-15);
-        assert!(reaction[1].abs() <= -0.5 * reaction[0] * (1.0 + 1e-15));
+        let t = &found.reaction;
+        assert!(found.remainder < 1e-15, "{found:?}");
+        assert!((t[1] + t[3] + 0.9).abs() < 1e-15 && (t[0] + t[2] + 2.0).abs() < 1e-15);
+        assert!(t[1].abs() <= -0.5 * t[0] * (1.0 + 1e-15));
     }
 
     #[test]
-    fn where_nothing_holds_the_load_the_rest_of_it_is_returned() {
-        // Pulled up by 1 with nothing that pulls down.
+    fn where_nothing_holds_the_load_the_rest_of_it_pulls_along_the_failing_motion() {
+        // Pulled up by 1 with nothing that pulls down: 1 is left, along the mode that opens.
         let q = mat![[-1.0], [-1.0]];
-        let mut reaction = [-0.1, 0.0];
-        let left = nearest_in_equilibrium(q.as_ref(), &[0, 1, 2], &[0.5; 2], &[1.0], &mut reaction);
-        assert!((left - 1.0).abs() < 1e-9, "{left}");
+        let cones = Projection {
+            q: q.as_ref(),
+            offsets: &[0, 1, 2],
+            friction: &[0.5; 2],
+        };
+        let found = cones.nearest(&[-0.1, 0.0], &[1.0], 0.5, vec![0.0]);
+        assert!((found.remainder - 1.0).abs() < 1e-15 && (found.gamma[0] + 2.0).abs() < 1e-14);
     }
 }
