@@ -111,22 +111,6 @@ pub enum Error {
         left_out: usize,
     },
 
-    /// A node belongs to two contact pairs.
-    #[error(
-        "node {node} at {position:?} belongs to {first} and to {second}; \
-         expected at most one contact pair per node"
-    )]
-    NodeInTwoPairs {
-        /// The node.
-        node: usize,
-        /// Its position, in metre.
-        position: [f64; 3],
-        /// The contact pair that has it already.
-        first: String,
-        /// The contact pair that claims it too.
-        second: String,
-    },
-
     /// A support of a contact node is neither along nor across its normal.
     #[error(
         "{place}: node {node} at {position:?} has its normal along {normal:?} and is supported \
@@ -211,12 +195,12 @@ pub enum Error {
         largest: f64,
     },
 
-    /// A number that should point at a node, cell or material of the body does not.
+    /// A number that should point at a body, or at something of it, does not.
     #[error("{place}: {what} {index} does not exist; expected less than {count}")]
     UnknownIndex {
         /// Where the number stands.
         place: String,
-        /// What it should point at: `node`, `cell`, `material`.
+        /// What it should point at: `body`, `pair`, `node`, `cell`, `material`.
         what: &'static str,
         /// The number.
         index: usize,

@@ -4,13 +4,13 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::body::{self, Body};
-use crate::condensation::Condensed;
+use crate::condensation::{Condensed, ContactPair};
 use crate::dpana::{self, Outcome, Status};
 use crate::error::Error;
-use crate::kkt::{self, Balance};
+use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
 use crate::report::{Report, ReportParts, StageWork, replace_file};
-use crate::scene::Scene;
+use crate::scene::{Mechanics, Scene};
 
 /// Solves a scene.
 ///
@@ -19,42 +19,66 @@ use crate::scene::Scene;
 /// Whatever is wrong with the scene. A solve that does not converge is no error:
 /// see [`Solution::status`].
 pub fn solve(scene: &Scene) -> Result<Solution, Error> {
-    let mechanics = scene.mechanics()?;
+    let Mechanics {
+        bodies,
+        contacts: pairs,
+        settings,
+    } = scene.mechanics()?;
     let at_scene = |error| scene.locate(error);
-    let [body] = <[Body; 1]>::try_from(mechanics.bodies).map_err(|bodies| Error::Length {
-        place: "bodies".to_owned(),
-        expected: 1,
-        found: bodies.len(),
-    })?;
 
-    let condensed = Condensed::new(&body, &mechanics.contacts).map_err(at_scene)?;
-    let outcome = dpana::solve(condensed.problem(), &mechanics.settings).map_err(at_scene)?;
+    let condensed = Condensed::new(&bodies, &pairs).map_err(at_scene)?;
+    let outcome = dpana::solve(condensed.problem(), &settings).map_err(at_scene)?;
 
     let start = Instant::now();
-    let displacement = condensed.recover(&outcome.reaction)?;
-    let balance = kkt::balance(&kkt::BodyState {
-        body: &body,
-        stiffness: condensed.stiffness(),
-        load: condensed.load(),
-        prescribed: condensed.prescribed(),
-        surface: condensed.surface(),
-        problem: condensed.problem(),
-        reaction: &outcome.reaction,
-        contact_displacement: &outcome.verdict.displacement,
-        displacement: &displacement,
-    })?;
+    let displacements = condensed.recover(&outcome.reaction)?;
+    let balances = balances(&bodies, &condensed, &outcome.reaction, &displacements)?;
+    let departure = kkt::surface_departure(
+        &bodies,
+        &displacements,
+        condensed.surface(),
+        condensed.problem(),
+        &outcome.verdict.displacement,
+    )?;
     let recovery_seconds = start.elapsed().as_secs_f64();
 
     Ok(Solution {
         title: scene.title.clone(),
         units: scene.units.clone(),
-        body,
+        bodies,
+        pairs,
         condensed,
         outcome,
-        displacement,
-        balance,
+        displacements,
+        balances,
+        departure,
         recovery_seconds,
     })
+}
+
+/// Equilibrium of every body.
+fn balances(
+    bodies: &[Body],
+    condensed: &Condensed,
+    reaction: &[f64],
+    displacements: &[Vec<f64>],
+) -> Result<Vec<Balance>, Error> {
+    let parts = bodies.iter().zip(condensed.bodies()).zip(displacements);
+    parts
+        .enumerate()
+        .map(|(index, ((body, operators), displacement))| {
+            kkt::balance(&kkt::BodyState {
+                index,
+                body,
+                stiffness: operators.stiffness(),
+                load: operators.load(),
+                prescribed: operators.prescribed(),
+                surface: condensed.surface(),
+                problem: condensed.problem(),
+                reaction,
+                displacement,
+            })
+        })
+        .collect()
 }
 
 /// A solved scene.
@@ -62,11 +86,13 @@ pub fn solve(scene: &Scene) -> Result<Solution, Error> {
 pub struct Solution {
     title: String,
     units: String,
-    body: Body,
+    bodies: Vec<Body>,
+    pairs: Vec<ContactPair>,
     condensed: Condensed,
     outcome: Outcome,
-    displacement: Vec<f64>,
-    balance: Balance,
+    displacements: Vec<Vec<f64>>,
+    balances: Vec<Balance>,
+    departure: Worst,
     recovery_seconds: f64,
 }
 
@@ -77,13 +103,13 @@ impl Solution {
         self.outcome.status
     }
 
-    /// The body.
+    /// The bodies, in the order of the scene.
     #[must_use]
-    pub fn body(&self) -> &Body {
-        &self.body
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
     }
 
-    /// The body, condensed onto its contact surface.
+    /// The bodies, condensed onto their contact surface.
     #[must_use]
     pub fn condensed(&self) -> &Condensed {
         &self.condensed
@@ -95,37 +121,46 @@ impl Solution {
         &self.outcome
     }
 
-    /// Displacement per unknown of the body (`node · dimension + axis`), in metre.
+    /// Displacement per body and unknown (`node · dimension + axis`), in metre.
     #[must_use]
-    pub fn displacement(&self) -> &[f64] {
-        &self.displacement
+    pub fn displacements(&self) -> &[Vec<f64>] {
+        &self.displacements
     }
 
-    /// Displacement of the node nearest to a position before loading, in metre.
-    #[must_use]
-    pub fn displacement_near(&self, position: [f64; 3]) -> [f64; 3] {
+    /// Displacement of the node of a body nearest to a position before loading, in metre.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownIndex`] if there is no such body.
+    pub fn displacement_near(&self, body: usize, position: [f64; 3]) -> Result<[f64; 3], Error> {
+        let (Some(mesh), Some(displacement)) = (
+            self.bodies.get(body).map(|body| &body.mesh),
+            self.displacements.get(body),
+        ) else {
+            return Err(Error::UnknownIndex {
+                place: "displacement".to_owned(),
+                what: "body",
+                index: body,
+                count: self.bodies.len(),
+            });
+        };
         let distance = |node: &[f64; 3]| {
             (0..3)
                 .map(|axis| (node[axis] - position[axis]).powi(2))
                 .sum::<f64>()
         };
-        let nodes = self.body.mesh.nodes.iter().enumerate();
+        let nodes = mesh.nodes.iter().enumerate();
         let nearest = nodes.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
-        let dimension = self.body.mesh.dimension;
-        let first = nearest.map_or(0, |(node, _)| node * dimension);
-        std::array::from_fn(|axis| {
-            if axis < dimension {
-                self.displacement[first + axis]
-            } else {
-                0.0
-            }
-        })
+        let first = nearest.map_or(0, |(node, _)| node * mesh.dimension);
+        let mut near = [0.0; 3];
+        near[..mesh.dimension].copy_from_slice(&displacement[first..first + mesh.dimension]);
+        Ok(near)
     }
 
-    /// Equilibrium of the whole body, measured by the judge.
+    /// Equilibrium of each whole body, measured by the judge.
     #[must_use]
-    pub fn balance(&self) -> &Balance {
-        &self.balance
+    pub fn balances(&self) -> &[Balance] {
+        &self.balances
     }
 
     /// The answer under stable names.
@@ -138,12 +173,14 @@ impl Solution {
         Report::new(&ReportParts {
             title: &self.title,
             units: &self.units,
-            body: &self.body,
+            bodies: &self.bodies,
+            pairs: &self.pairs,
             surface: self.condensed.surface(),
             problem: self.condensed.problem(),
             outcome: &self.outcome,
-            displacement: &self.displacement,
-            balance: &self.balance,
+            displacements: &self.displacements,
+            balances: &self.balances,
+            departure: self.departure,
             stages: &StageWork {
                 factorisations: work.factorisations,
                 assembly: work.assembly_seconds,
@@ -156,29 +193,35 @@ impl Solution {
         })
     }
 
-    /// Writes the body to `path` and its contact surface beside it, as VTU.
+    /// Writes the bodies to `path` and their contact surface beside it, as VTU.
     ///
     /// # Errors
     ///
     /// A file that cannot be written; what stood there before is then left as it was.
     pub fn write_vtu(&self, path: &Path) -> Result<(), Error> {
-        let cell_stress = body::cell_stress(&self.body, &self.displacement);
-        let nodal_stress = body::nodal_stress(&self.body, &cell_stress);
-        let von_mises = |stress: &[[f64; 6]]| stress.iter().map(|&s| body::von_mises(s)).collect();
-        let (nodal_von_mises, cell_von_mises): (Vec<f64>, Vec<f64>) =
-            (von_mises(&nodal_stress), von_mises(&cell_stress));
-        let of_body = vtu::body_vtu(&BodyFields {
-            mesh: &self.body.mesh,
-            displacement: &self.displacement,
-            nodal_stress: &nodal_stress,
-            nodal_von_mises: &nodal_von_mises,
-            cell_stress: &cell_stress,
-            cell_von_mises: &cell_von_mises,
-        })?;
+        let solved = || self.bodies.iter().zip(&self.displacements);
+        let stresses: Vec<_> = solved()
+            .map(|(body, displacement)| {
+                let of_cells = body::cell_stress(body, displacement);
+                (body::nodal_stress(body, &of_cells), of_cells)
+            })
+            .collect();
+        let fields: Vec<_> = solved()
+            .zip(&stresses)
+            .map(
+                |((body, displacement), (nodal_stress, cell_stress))| BodyFields {
+                    mesh: &body.mesh,
+                    displacement,
+                    nodal_stress,
+                    cell_stress,
+                },
+            )
+            .collect();
+        let of_bodies = vtu::body_vtu(&fields)?;
         let facets = &self.condensed.surface().facets;
         let of_contact =
-            vtu::contact_vtu(&self.report()?, &self.body.mesh, facets, &self.displacement)?;
-        replace_file(path, &of_body)?;
+            vtu::contact_vtu(&self.report()?, &self.bodies, facets, &self.displacements)?;
+        replace_file(path, &of_bodies)?;
         replace_file(&vtu::contact_path(path), &of_contact)
     }
 }

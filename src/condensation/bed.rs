@@ -4,10 +4,12 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use sprs::CsMat;
 
+use super::condensed_body::CondensedBody;
 use super::frame::Stance;
+use super::interface::Interface;
 use super::lattice::Lattice;
 use super::supported::SupportedBody;
-use super::{Condensed, ContactNode, ContactSurface};
+use super::{CondensationWork, ContactNode, ContactProblem, ContactSurface, Operator};
 use crate::error::Error;
 
 /// A lattice on a rough bed: contacts at the bottom, supports, a load on every node.
@@ -17,6 +19,21 @@ pub(super) struct Bed {
     pub(super) prescribed: Vec<Option<f64>>,
     pub(super) load: Vec<f64>,
     contacts: Vec<ContactNode>,
+}
+
+/// A bed, condensed onto its contacts.
+#[derive(Debug)]
+pub(super) struct CondensedBed {
+    pub(super) problem: ContactProblem,
+    body: CondensedBody,
+    interface: Interface,
+}
+
+impl CondensedBed {
+    /// Displacement per degree of freedom under the load and a contact reaction.
+    pub(super) fn recover(&self, reaction: &[f64]) -> Vec<f64> {
+        self.body.recover(&self.interface.forces(reaction))
+    }
 }
 
 impl Bed {
@@ -69,7 +86,9 @@ impl Bed {
                 continue;
             };
             self.contacts.push(ContactNode {
+                body: 0,
                 node,
+                opposite: None,
                 pair: 0,
                 position,
                 frame,
@@ -81,7 +100,7 @@ impl Bed {
         }
     }
 
-    pub(super) fn condense(&self) -> Result<Condensed, Error> {
+    pub(super) fn condense(&self) -> Result<CondensedBed, Error> {
         let nodes: Vec<_> = (0..self.lattice.nodes())
             .map(|node| self.lattice.position(node))
             .collect();
@@ -89,16 +108,35 @@ impl Bed {
             nodes: self.contacts.clone(),
             ..ContactSurface::default()
         };
-        let friction = vec![0.5; self.contacts.len()];
-        SupportedBody {
+        let interface = Interface::new(&surface, 0, self.dimension, &self.prescribed);
+        let supported = SupportedBody {
             name: "bed",
             nodes: &nodes,
             dimension: self.dimension,
             stiffness: self.lattice.stiffness(),
             load: self.load.clone(),
             prescribed: self.prescribed.clone(),
-        }
-        .condense(surface, friction)
+        };
+        let mut work = CondensationWork::default();
+        let (body, trailing) = supported.condense(&interface.nodes, &mut work)?;
+
+        let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
+        let (count, unknowns) = (tangents.len(), trailing.free_displacement.len());
+        let mut free = vec![0.0; unknowns];
+        interface.add_displacement(&trailing.free_displacement, &mut free);
+        let operator = Operator::from_factor(trailing.factor);
+        let problem = ContactProblem::new(
+            &tangents,
+            vec![0.5; count],
+            vec![0.0; count],
+            free,
+            operator,
+        )?;
+        Ok(CondensedBed {
+            problem,
+            body,
+            interface,
+        })
     }
 
     /// Unit forces of the contact unknowns in global axes, one per column.

@@ -1,33 +1,24 @@
-//! A body condensed onto its contact surface, and the way back.
-//!
-//! ```text
-//! (C5)  L y = P Qᵀ (f − K u_p),   û_c = L_cc⁻ᵀ y_c           u_p: prescribed displacement
-//! (C6)  Lᵀ x = y + [0, L_cc⁻¹ t],  u = u_p + Q Pᵀ x           Q: the frames (C4), P: the ordering
-//! ```
-//!
-//! One forward and one backward substitution serve the free displacement and the
-//! recovered body together.
+//! Bodies condensed onto the contact problem between them, and the way back.
 
 use std::time::Instant;
 
-use sprs::CsMat;
+use faer::Mat;
 
-use super::factor::Factor;
-use super::frames::Frames;
-use super::ordering::Ordering;
-use super::supported::SupportedBody;
-use super::{ContactPair, ContactProblem, ContactSurface};
+use super::condensed_body::CondensedBody;
+use super::interface::Interface;
+use super::supported::{SupportedBody, Trailing};
+use super::{ContactPair, ContactProblem, ContactSurface, Operator};
 use crate::body::{self, Body};
 use crate::error::{Error, check_length};
 
-/// Counts and wall time of a condensation.
+/// Counts and wall time of a condensation, over all bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CondensationWork {
-    /// Sparse factorisations.
+    /// Sparse factorisations, one per body.
     pub factorisations: usize,
-    /// Unknowns of the supported body, contact unknowns included.
+    /// Unknowns of the supported bodies, contact unknowns included.
     pub unknowns: usize,
-    /// Stored entries of the factor L.
+    /// Stored entries of the factors L.
     pub factor_entries: usize,
     /// Checks, contact surface, stiffness and load, in second.
     pub assembly_seconds: f64,
@@ -41,58 +32,69 @@ pub struct CondensationWork {
     pub condensation_seconds: f64,
 }
 
-/// A body, its contact surface, and the factor that joins them.
+/// Bodies, their contact surface, and the factors that join them.
 #[derive(Debug)]
 pub struct Condensed {
-    pub(super) surface: ContactSurface,
-    pub(super) problem: ContactProblem,
-    pub(super) stiffness: CsMat<f64>,
-    pub(super) load: Vec<f64>,
-    pub(super) prescribed: Vec<Option<f64>>,
-    pub(super) work: CondensationWork,
-    pub(super) frames: Frames,
-    pub(super) ordering: Ordering,
-    pub(super) factor: Factor,
-    /// `y` of (C5).
-    pub(super) half_solved: Vec<f64>,
+    surface: ContactSurface,
+    problem: ContactProblem,
+    bodies: Vec<CondensedBody>,
+    interfaces: Vec<Interface>,
+    work: CondensationWork,
 }
 
 impl Condensed {
-    /// Condenses a body onto the surface where it may touch its obstacles.
+    /// Condenses bodies onto the surfaces where they may touch obstacles or each other.
     ///
     /// # Errors
     ///
     /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
     /// [`ContactSurface::new`] refuse, a rigid motion that the supports leave free, a
     /// stiffness that is not positive definite.
-    pub fn new(body: &Body, pairs: &[ContactPair]) -> Result<Self, Error> {
+    pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
         let start = Instant::now();
-        body::check(body)?;
-        let prescribed = body::prescribed(body)?;
-        let surface = ContactSurface::new(body, pairs, &prescribed)?;
-        if let Some(motion) = body::free_motion(body, &prescribed) {
-            return Err(Error::FreeMotion {
-                body: body.name.clone(),
-                motion: motion.to_string(),
-            });
+        let mut prescribed = Vec::with_capacity(bodies.len());
+        for body in bodies {
+            body::check(body)?;
+            prescribed.push(body::prescribed(body)?);
         }
-        let supported = SupportedBody {
-            name: &body.name,
-            nodes: &body.mesh.nodes,
-            dimension: body.mesh.dimension,
-            stiffness: body::stiffness(body),
-            load: body::load_vector(body),
-            prescribed,
-        };
-        let assembly_seconds = start.elapsed().as_secs_f64();
-        let friction = surface
-            .nodes
-            .iter()
-            .map(|contact| pairs[contact.pair].friction);
-        let friction = friction.collect();
-        let mut condensed = supported.condense(surface, friction)?;
-        condensed.work.assembly_seconds = assembly_seconds;
-        Ok(condensed)
+        let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
+        let mut work = CondensationWork::default();
+        let (mut condensed, mut interfaces, mut trailing) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
+            if let Some(motion) = body::free_motion(body, &prescribed) {
+                let motion = motion.to_string();
+                return Err(Error::FreeMotion {
+                    body: body.name.clone(),
+                    motion,
+                });
+            }
+            let dimension = body.mesh.dimension;
+            let interface = Interface::new(&surface, index, dimension, &prescribed);
+            let supported = SupportedBody {
+                name: &body.name,
+                nodes: &body.mesh.nodes,
+                dimension,
+                stiffness: body::stiffness(body),
+                load: body::load_vector(body),
+                prescribed,
+            };
+            let (body, of_interface) = supported.condense(&interface.nodes, &mut work)?;
+            condensed.push(body);
+            interfaces.push(interface);
+            trailing.push(of_interface);
+        }
+        let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
+        work.assembly_seconds = start.elapsed().as_secs_f64() - before;
+        let start = Instant::now();
+        let problem = join(&surface, pairs, &interfaces, trailing)?;
+        work.condensation_seconds += start.elapsed().as_secs_f64();
+        Ok(Self {
+            surface,
+            problem,
+            bodies: condensed,
+            interfaces,
+            work,
+        })
     }
 
     /// The contact surface.
@@ -107,22 +109,10 @@ impl Condensed {
         &self.problem
     }
 
-    /// Stiffness K of the whole body in global axes, supports not applied, in N/m.
+    /// The bodies, in the order they were given.
     #[must_use]
-    pub fn stiffness(&self) -> &CsMat<f64> {
-        &self.stiffness
-    }
-
-    /// Load f per degree of freedom (`node · dimension + axis`), in newton.
-    #[must_use]
-    pub fn load(&self) -> &[f64] {
-        &self.load
-    }
-
-    /// Prescribed displacement per degree of freedom, in metre.
-    #[must_use]
-    pub fn prescribed(&self) -> &[Option<f64>] {
-        &self.prescribed
+    pub fn bodies(&self) -> &[CondensedBody] {
+        &self.bodies
     }
 
     /// What it took.
@@ -131,38 +121,63 @@ impl Condensed {
         self.work
     }
 
-    /// Displacement of every node under the load and a contact reaction (C6), in metre.
+    /// Displacement of every node of every body under the load and a contact reaction
+    /// (C6), in metre.
     ///
-    /// `reaction` is in newton, per unknown of the contact problem; the result is in global axes
-    /// per degree of freedom.
+    /// `reaction` is in newton, per unknown of the contact problem; the result is in global
+    /// axes, per body and degree of freedom.
     ///
     /// # Errors
     ///
     /// [`Error::Length`] if the reaction does not fit the contact problem.
-    pub fn recover(&self, reaction: &[f64]) -> Result<Vec<f64>, Error> {
+    pub fn recover(&self, reaction: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
-        let ordinary = self.ordering.ordinary();
-        let mut x = vec![0.0; self.ordering.unknowns()];
-        x[ordinary..].copy_from_slice(reaction);
-        self.factor.forward_on_contact(&mut x);
-        for (x, y) in x.iter_mut().zip(&self.half_solved) {
-            *x += y;
-        }
-        self.factor.backward(&mut x);
-
-        let mut displacement = vec![0.0; self.load.len()];
-        for (&dof, &value) in self.ordering.dof.iter().zip(&x) {
-            displacement[dof] = value;
-        }
-        self.frames.turn_to_global(&mut displacement);
-        for (u, prescribed) in displacement.iter_mut().zip(&self.prescribed) {
-            // A held tangent is a global axis: nothing else moves the node along it.
-            if let Some(value) = prescribed {
-                *u = *value;
-            }
-        }
-        Ok(displacement)
+        let bodies = self.bodies.iter().zip(&self.interfaces);
+        Ok(bodies
+            .map(|(body, interface)| body.recover(&interface.forces(reaction)))
+            .collect())
     }
+}
+
+/// The contact problem of all bodies together (C11).
+fn join(
+    surface: &ContactSurface,
+    pairs: &[ContactPair],
+    interfaces: &[Interface],
+    trailing: Vec<Trailing>,
+) -> Result<ContactProblem, Error> {
+    let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
+    let unknowns = tangents.iter().map(|count| 1 + count).sum();
+    let mut free_displacement = vec![0.0; unknowns];
+    for (interface, of_body) in interfaces.iter().zip(&trailing) {
+        interface.add_displacement(&of_body.free_displacement, &mut free_displacement);
+    }
+    let mut operators = trailing
+        .into_iter()
+        .map(|of_body| Operator::from_factor(of_body.factor));
+    let operator = match (interfaces, operators.next()) {
+        ([interface], Some(operator)) if interface.is_identity() => operator,
+        (_, first) => {
+            let mut compliance = Mat::zeros(unknowns, unknowns);
+            for (interface, operator) in interfaces.iter().zip(first.into_iter().chain(operators)) {
+                interface.add_compliance(operator.compliance(), &mut compliance);
+            }
+            Operator::from_compliance(compliance)?
+        }
+    };
+    let friction = surface
+        .nodes
+        .iter()
+        .map(|contact| pairs[contact.pair].friction)
+        .collect();
+    let initial_gap = surface.nodes.iter().map(|node| node.initial_gap).collect();
+    ContactProblem::new(
+        &tangents,
+        friction,
+        initial_gap,
+        free_displacement,
+        operator,
+    )
 }
 
 #[cfg(test)]
@@ -171,8 +186,7 @@ mod tests {
     use super::*;
     use crate::body::samples::{block, body, distorted, facets};
     use crate::body::{CellKind, Facet, Load, Material, Mesh, Model, Support, graded, rectangle};
-    use crate::condensation::Obstacle;
-    use faer::Mat;
+    use crate::condensation::{Obstacle, Opposite};
     use nalgebra::{Rotation3, Vector3};
 
     const KINDS: [CellKind; 4] = [
@@ -201,10 +215,11 @@ mod tests {
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
             facets: facets(&body.mesh, "bottom"),
-            obstacle: Obstacle::Plane {
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane {
                 point: normal.map(|component| -0.0005 * component),
                 normal,
-            },
+            }),
             friction: 0.4,
         };
         (body, pair)
@@ -229,12 +244,12 @@ mod tests {
     fn the_recovered_body_is_in_equilibrium_with_load_and_contact_forces() {
         for kind in KINDS {
             let (body, pair) = pressed(kind);
-            let condensed = Condensed::new(&body, &[pair]).unwrap();
+            let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
             let reaction = some_reaction(condensed.problem().unknowns());
-            let displacement = condensed.recover(&reaction).unwrap();
+            let displacement = condensed.recover(&reaction).unwrap().remove(0);
             // (B2): K u − f − contact forces vanishes wherever no support acts.
-            let mut rest: Vec<f64> = condensed.load().iter().map(|f| -f).collect();
-            for (&value, (row, column)) in condensed.stiffness() {
+            let mut rest: Vec<f64> = condensed.bodies()[0].load().iter().map(|f| -f).collect();
+            for (&value, (row, column)) in condensed.bodies()[0].stiffness() {
                 rest[row] += value * displacement[column];
             }
             let axes = body.mesh.dimension;
@@ -247,10 +262,10 @@ mod tests {
                     }
                 }
             }
-            let free = rest.iter().zip(condensed.prescribed());
+            let free = rest.iter().zip(condensed.bodies()[0].prescribed());
             let free = free.filter(|(_, u)| u.is_none()).map(|(r, _)| *r);
             assert!(largest(free) < 1e-12, "{kind:?}");
-            for (u, prescribed) in displacement.iter().zip(condensed.prescribed()) {
+            for (u, prescribed) in displacement.iter().zip(condensed.bodies()[0].prescribed()) {
                 assert!(prescribed.is_none_or(|prescribed| prescribed == *u));
             }
         }
@@ -271,16 +286,18 @@ mod tests {
             if kind.dimension() == 3 {
                 pair.friction = 0.0;
             }
-            let straight = Condensed::new(&body, std::slice::from_ref(&pair)).unwrap();
+            let straight =
+                Condensed::new(std::slice::from_ref(&body), std::slice::from_ref(&pair)).unwrap();
             body.mesh
                 .nodes
                 .iter_mut()
                 .for_each(|node| *node = turn(*node));
             let mut turned_pair = pair;
-            if let Obstacle::Plane { point, normal } = &mut turned_pair.obstacle {
+            if let Opposite::Obstacle(Obstacle::Plane { point, normal }) = &mut turned_pair.opposite
+            {
                 (*point, *normal) = (turn(*point), turn(*normal));
             }
-            let turned = Condensed::new(&body, &[turned_pair]).unwrap();
+            let turned = Condensed::new(std::slice::from_ref(&body), &[turned_pair]).unwrap();
             let (a, b) = (straight.problem(), turned.problem());
             assert_close(b.initial_gap(), a.initial_gap());
             assert_close(b.free_displacement(), a.free_displacement());
@@ -300,8 +317,8 @@ mod tests {
         for side in ["left", "front", "top"] {
             grown.facets.extend(facets(&body.mesh, side));
         }
-        let small = Condensed::new(&body, &[pair]).unwrap();
-        let large = Condensed::new(&body, &[grown]).unwrap();
+        let small = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
+        let large = Condensed::new(std::slice::from_ref(&body), &[grown]).unwrap();
         assert_eq!(
             small.problem().free_displacement(),
             large.problem().free_displacement()
@@ -335,14 +352,15 @@ mod tests {
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
             facets: facets(&square.mesh, "bottom"),
-            obstacle: Obstacle::Plane {
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
-            },
+            }),
             friction: 0.0,
         };
-        let condensed = Condensed::new(&square, &[pair]).unwrap();
-        assert_eq!(condensed.surface().left_out, [8]);
+        let condensed = Condensed::new(&[square], &[pair]).unwrap();
+        assert_eq!(condensed.surface().left_out, [(0, 8)]);
         // Every contact closes: S t = −û, for the gap is zero.
         let problem = condensed.problem();
         let free = problem.free_displacement();
@@ -356,7 +374,10 @@ mod tests {
         {
             assert!((-force / contact.area / 5e7 - 1.0).abs() < 1e-10);
         }
-        let displacement = condensed.recover(reaction.col_as_slice(0)).unwrap();
+        let displacement = condensed
+            .recover(reaction.col_as_slice(0))
+            .unwrap()
+            .remove(0);
         for node in (0..81).step_by(9) {
             let expected = 0.04 * (0.96 * 15e7 - 0.24 * 5e7) / 1.3e11;
             assert!((displacement[2 * node] / expected - 1.0).abs() < 1e-12);
@@ -366,7 +387,7 @@ mod tests {
     #[test]
     fn one_factorisation_serves_a_condensation() {
         let (body, pair) = pressed(CellKind::Quad4);
-        let condensed = Condensed::new(&body, &[pair]).unwrap();
+        let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
         let work = condensed.work();
         // 5 × 3 nodes, 3 of them held: 24 unknowns; L has at least a triangle of the contact block.
         assert_eq!((work.factorisations, work.unknowns), (1, 24));
@@ -376,14 +397,14 @@ mod tests {
     #[test]
     fn a_reaction_of_the_wrong_length_is_refused() {
         let (body, pair) = pressed(CellKind::Quad4);
-        let condensed = Condensed::new(&body, &[pair]).unwrap();
+        let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
         assert!(condensed.recover(&[0.0]).is_err());
     }
 
     #[test]
     fn a_body_that_nothing_holds_is_refused_with_its_motion() {
         let (_, pair) = pressed(CellKind::Hex8);
-        let found = Condensed::new(&block(CellKind::Hex8), &[pair]).unwrap_err();
+        let found = Condensed::new(&[block(CellKind::Hex8)], &[pair]).unwrap_err();
         assert!(matches!(found, Error::FreeMotion { .. }), "{found}");
     }
 
@@ -404,13 +425,14 @@ mod tests {
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
             facets: vec![Facet { nodes: vec![2, 4] }],
-            obstacle: Obstacle::Plane {
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
-            },
+            }),
             friction: 0.5,
         };
-        let found = Condensed::new(&hinged, &[pair]).unwrap_err();
+        let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(
             matches!(found, Error::NotPositiveDefinite { .. }),
             "{found}"
@@ -430,7 +452,10 @@ mod tests {
             for (cell, material) in body.material_of_cell.iter_mut().enumerate() {
                 *material = usize::from(body.mesh.centroid(cell)[0] < 1.2);
             }
-            assert!(Condensed::new(&body, &[pair]).is_ok(), "{kind:?}");
+            assert!(
+                Condensed::new(std::slice::from_ref(&body), &[pair]).is_ok(),
+                "{kind:?}"
+            );
         }
     }
 }

@@ -12,7 +12,7 @@ use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 
-use super::{ContactNode, ContactPair};
+use super::{ContactNode, ContactPair, Obstacle};
 use crate::body::{Facet, FacetGeometry, Mesh};
 use crate::error::Error;
 
@@ -41,12 +41,11 @@ impl<'a> Boundary<'a> {
         }
     }
 
-    /// The facets of a pair that face its obstacle, each once; all of them are noted as the pair's.
+    /// The facets of a pair that face its obstacle, each once.
     pub(super) fn facing(
         &self,
         pair: &ContactPair,
-        pair_index: usize,
-        pair_of_facet: &mut HashMap<usize, usize>,
+        obstacle: &Obstacle,
     ) -> Result<Vec<(Facet, FacetGeometry)>, Error> {
         let mut seen = HashSet::new();
         let mut facing = Vec::new();
@@ -57,10 +56,9 @@ impl<'a> Boundary<'a> {
             if !seen.insert(index) {
                 continue;
             }
-            pair_of_facet.insert(index, pair_index);
             let outward = &self.facets[index];
             let geometry = self.mesh.facet_geometry(outward);
-            let seen_from = pair.obstacle.closest(&pair.place, self.centre(outward))?;
+            let seen_from = obstacle.closest(&pair.place, self.centre(outward))?;
             if cosine(geometry.normal, seen_from.direction) > FACING {
                 facing.push((outward.clone(), geometry));
             }
@@ -96,25 +94,26 @@ impl<'a> Boundary<'a> {
         (sum / facet.nodes.len() as f64).into()
     }
 
-    /// Marks contacts where a boundary facet outside their pair goes on in the same direction.
-    pub(super) fn mark_rims(
-        &self,
-        contacts: &mut [ContactNode],
-        contact_of_node: &HashMap<usize, usize>,
-        pair_of_facet: &HashMap<usize, usize>,
-    ) {
-        for (index, facet) in self.facets.iter().enumerate() {
-            let pair = pair_of_facet.get(&index);
-            for node in &facet.nodes {
-                let Some(&contact) = contact_of_node.get(node) else {
-                    continue;
-                };
-                let contact = &mut contacts[contact];
-                if pair == Some(&contact.pair) || contact.rim {
-                    continue;
-                }
+    /// Marks contacts of a pair where a boundary facet outside it goes on in the same direction.
+    pub(super) fn mark_rims(&self, contacts: &mut [ContactNode], of_pair: &[Facet]) {
+        let within: HashSet<Vec<usize>> = of_pair.iter().map(key).collect();
+        let numbered = contacts.iter().enumerate();
+        let contact_of_node: HashMap<usize, usize> = numbered
+            .map(|(index, contact)| (contact.node, index))
+            .collect();
+        for facet in self
+            .facets
+            .iter()
+            .filter(|facet| !within.contains(&key(facet)))
+        {
+            for contact in facet
+                .nodes
+                .iter()
+                .filter_map(|node| contact_of_node.get(node))
+            {
+                let contact = &mut contacts[*contact];
                 let normal = self.mesh.facet_geometry(facet).normal;
-                contact.rim = cosine(normal, contact.frame[0]) > SMOOTH;
+                contact.rim |= cosine(normal, contact.frame[0]) > SMOOTH;
             }
         }
     }

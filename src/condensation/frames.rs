@@ -10,7 +10,7 @@
 
 use sprs::CsMat;
 
-use super::ContactNode;
+use super::interface::InterfaceNode;
 
 /// Not a contact node.
 const NONE: usize = usize::MAX;
@@ -25,17 +25,17 @@ pub(crate) struct Frames {
 }
 
 impl Frames {
-    /// The frames of `contacts` on a body of `nodes` nodes.
-    pub(crate) fn new(dimension: usize, nodes: usize, contacts: &[ContactNode]) -> Self {
+    /// The frames of an interface on a body of `nodes` nodes.
+    pub(crate) fn new(dimension: usize, nodes: usize, interface: &[InterfaceNode]) -> Self {
         let mut contact_of_dof = vec![NONE; nodes * dimension];
-        for (index, contact) in contacts.iter().enumerate() {
-            let first = contact.node * dimension;
+        for (index, node) in interface.iter().enumerate() {
+            let first = node.node * dimension;
             contact_of_dof[first..first + dimension].fill(index);
         }
         Self {
             dimension,
             contact_of_dof,
-            frames: contacts.iter().map(|contact| contact.frame).collect(),
+            frames: interface.iter().map(|node| node.frame).collect(),
         }
     }
 

@@ -21,25 +21,29 @@
 #[cfg(test)]
 mod bed;
 mod condensed;
+mod condensed_body;
 mod elimination_tree;
 mod facing;
 mod factor;
 mod frame;
 mod frames;
+mod interface;
 #[cfg(test)]
 mod lattice;
 pub mod mortar;
 pub mod obstacle;
 pub mod operator;
 mod ordering;
+mod paired;
 pub mod problem;
 mod substitution;
 mod supported;
 pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
+pub use condensed_body::CondensedBody;
 pub use mortar::{Mortar, MortarNode};
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;
-pub use surface::{ContactNode, ContactPair, ContactSurface};
+pub use surface::{ContactNode, ContactPair, ContactSurface, Opposite, OppositeNodes};

@@ -2,13 +2,24 @@
 
 use std::time::Instant;
 
+use faer::Mat;
 use sprs::CsMat;
 
+use super::CondensationWork;
+use super::condensed_body::CondensedBody;
 use super::factor::{Breakdown, Factor};
 use super::frames::Frames;
+use super::interface::InterfaceNode;
 use super::ordering::{Ordering, Role};
-use super::{CondensationWork, Condensed, ContactProblem, ContactSurface, Operator};
 use crate::error::Error;
+
+/// What a condensed body shows at its interface.
+pub(super) struct Trailing {
+    /// `L_cc` of (C2).
+    pub(super) factor: Mat<f64>,
+    /// `v̂` of (C5), in metre.
+    pub(super) free_displacement: Vec<f64>,
+}
 
 /// The assembled body, before it is condensed.
 pub(super) struct SupportedBody<'a> {
@@ -21,23 +32,27 @@ pub(super) struct SupportedBody<'a> {
 }
 
 impl SupportedBody<'_> {
-    /// Orders, factorises and condenses (C2), (C5).
+    /// Orders, factorises and condenses onto the interface (C2), (C5).
     pub(super) fn condense(
         self,
-        surface: ContactSurface,
-        friction: Vec<f64>,
-    ) -> Result<Condensed, Error> {
+        interface: &[InterfaceNode],
+        work: &mut CondensationWork,
+    ) -> Result<(CondensedBody, Trailing), Error> {
         let start = Instant::now();
-        let frames = Frames::new(self.dimension, self.nodes.len(), &surface.nodes);
-        let (roles, contact) = self.roles(&surface);
+        let frames = Frames::new(self.dimension, self.nodes.len(), interface);
+        let (roles, contact) = self.roles(interface);
         let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
             .ok_or_else(|| self.too_large("ordering"))?;
-        let ordering_seconds = start.elapsed().as_secs_f64();
+        work.ordering_seconds += start.elapsed().as_secs_f64();
 
         let start = Instant::now();
         let factor = Factor::new(&self.stiffness, &frames, &ordering)
             .map_err(|breakdown| self.explain(breakdown))?;
-        let factorisation_seconds = start.elapsed().as_secs_f64();
+        work.factorisation_seconds += start.elapsed().as_secs_f64();
+        work.numeric_seconds += factor.numeric_seconds;
+        work.factorisations += 1;
+        work.unknowns += factor.unknowns();
+        work.factor_entries += factor.entries();
 
         let start = Instant::now();
         let mut half_solved = self.right_hand_side(&frames, &ordering);
@@ -45,40 +60,25 @@ impl SupportedBody<'_> {
         let free_displacement = factor
             .backward_on_contact(&mut half_solved.clone())
             .to_vec();
-        let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
-        let problem = ContactProblem::new(
-            &tangents,
-            friction,
-            surface.nodes.iter().map(|node| node.initial_gap).collect(),
+        let trailing = Trailing {
+            factor: factor.trailing_block(),
             free_displacement,
-            Operator::from_factor(factor.trailing_block()),
-        )?;
-        let work = CondensationWork {
-            factorisations: 1,
-            unknowns: factor.unknowns(),
-            factor_entries: factor.entries(),
-            assembly_seconds: 0.0,
-            ordering_seconds,
-            factorisation_seconds,
-            numeric_seconds: factor.numeric_seconds,
-            condensation_seconds: start.elapsed().as_secs_f64(),
         };
-        Ok(Condensed {
-            surface,
-            problem,
+        work.condensation_seconds += start.elapsed().as_secs_f64();
+        let body = CondensedBody {
             stiffness: self.stiffness,
             load: self.load,
             prescribed: self.prescribed,
-            work,
             frames,
             ordering,
             factor,
             half_solved,
-        })
+        };
+        Ok((body, trailing))
     }
 
-    /// The role of each degree of freedom in the frames, and those of the contact problem in order.
-    fn roles(&self, surface: &ContactSurface) -> (Vec<Role>, Vec<usize>) {
+    /// The role of each degree of freedom in the frames, and the interface unknowns in order.
+    fn roles(&self, interface: &[InterfaceNode]) -> (Vec<Role>, Vec<usize>) {
         let role = |held: bool| if held { Role::Held } else { Role::Ordinary };
         let mut roles: Vec<Role> = self
             .prescribed
@@ -86,17 +86,17 @@ impl SupportedBody<'_> {
             .map(|value| role(value.is_some()))
             .collect();
         let mut contact = Vec::new();
-        for node in &surface.nodes {
+        for node in interface {
             let first = node.node * self.dimension;
             let supported = &self.prescribed[first..first + self.dimension];
             for (row, direction) in node.frame[..self.dimension].iter().enumerate() {
-                let along = direction.iter().zip(supported);
-                roles[first + row] = if row <= node.tangents {
+                let mut along = direction.iter().zip(supported);
+                roles[first + row] = if row < node.kept {
                     contact.push(first + row);
                     Role::Contact
                 } else {
                     // Held tangents are global axes: the component is one or zero.
-                    role(along.clone().any(|(d, u)| u.is_some() && d.abs() > 0.5))
+                    role(along.any(|(d, u)| u.is_some() && d.abs() > 0.5))
                 };
             }
         }
@@ -177,7 +177,7 @@ mod tests {
         for bed in beds() {
             let directions = bed.contact_directions();
             let expected = directions.transpose() * bed.solve(&directions, false);
-            assert_close(bed.condense().unwrap().problem().compliance(), &expected);
+            assert_close(bed.condense().unwrap().problem.compliance(), &expected);
         }
     }
 
@@ -198,10 +198,7 @@ mod tests {
         let k_cc = directions.transpose() * &turned;
         let expected = k_cc - k_oc.transpose() * k_oo.partial_piv_lu().solve(&k_oc);
         let condensed = bed.condense().unwrap();
-        assert_close(
-            condensed.problem().operator().stiffness().unwrap(),
-            &expected,
-        );
+        assert_close(condensed.problem.operator().stiffness().unwrap(), &expected);
     }
 
     #[test]
@@ -210,7 +207,7 @@ mod tests {
             let expected =
                 bed.contact_directions().transpose() * bed.solve(&bed.load_column(), true);
             let condensed = bed.condense().unwrap();
-            let found = condensed.problem().free_displacement();
+            let found = condensed.problem.free_displacement();
             let found = Mat::from_fn(found.len(), 1, |i, _| found[i]);
             assert_close(&found, &expected);
         }
@@ -224,12 +221,12 @@ mod tests {
             let count = directions.ncols();
             let reaction: Vec<f64> = (0..count).map(|i| ((5 * i) % 11) as f64 - 5.0).collect();
             let forces = Mat::from_fn(count, 1, |i, _| reaction[i]);
-            let found = condensed.recover(&reaction).unwrap();
+            let found = condensed.recover(&reaction);
             let found = Mat::from_fn(found.len(), 1, |i, _| found[i]);
             let expected = bed.solve(&(bed.load_column() + &directions * &forces), true);
             assert_close(&found, &expected);
             // (C1): the contact's part of it is û + G t.
-            let problem = condensed.problem();
+            let problem = &condensed.problem;
             let free = problem.free_displacement();
             let free = Mat::from_fn(count, 1, |i, _| free[i]);
             let contact = free + problem.compliance() * &forces;
@@ -242,16 +239,16 @@ mod tests {
         for (cells, block) in [([9, 6, 0], 2), ([4, 3, 4], 3)] {
             let rough = Bed::new(cells, 0.4, true).condense().unwrap();
             let smooth = Bed::new(cells, 0.4, false).condense().unwrap();
-            let offsets = rough.problem().offsets();
+            let offsets = rough.problem.offsets();
             assert_eq!(
                 offsets[offsets.len() - 1] - offsets[offsets.len() - 2],
                 block
             );
-            let all = rough.problem().compliance();
-            let contacts = smooth.problem().contacts();
+            let all = rough.problem.compliance();
+            let contacts = smooth.problem.contacts();
             let normal = Mat::from_fn(contacts, contacts, |i, j| all[(offsets[i], offsets[j])]);
-            assert_eq!(smooth.problem().unknowns(), contacts);
-            assert_close(smooth.problem().compliance(), &normal);
+            assert_eq!(smooth.problem.unknowns(), contacts);
+            assert_close(smooth.problem.compliance(), &normal);
         }
     }
 
@@ -259,7 +256,7 @@ mod tests {
     fn a_symmetry_plane_keeps_one_tangent_less() {
         let flat = Bed::new([9, 6, 0], 0.0, true).condense().unwrap();
         // Listed against the node numbers: the node at x = 9 comes first, held along x.
-        let offsets = flat.problem().offsets();
+        let offsets = flat.problem.offsets();
         assert_eq!((offsets[1], offsets[2]), (1, 3));
     }
 

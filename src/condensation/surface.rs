@@ -10,37 +10,67 @@ use std::collections::HashMap;
 use super::Obstacle;
 use super::facing::Boundary;
 use super::frame::Stance;
+use super::paired::{OppositeSurface, between_surfaces};
 use crate::body::{Body, Facet, FacetGeometry};
 use crate::error::{Error, check_finite};
 
-/// A part of the body's surface that may touch a rigid obstacle.
+/// A part of a body's surface that may touch a rigid obstacle or another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactPair {
     /// Where the scene says so, for messages, such as `contacts[0]`.
     pub place: String,
+    /// Index of the body whose nodes carry the contacts.
+    pub body: usize,
     /// The assumed contact surface; it need only contain the true contact.
     pub facets: Vec<Facet>,
     /// What it may touch.
-    pub obstacle: Obstacle,
+    pub opposite: Opposite,
     /// Coefficient of friction, `μ ≥ 0`.
     pub friction: f64,
 }
 
-/// One node of the contact surface, facing one obstacle.
+/// The other side of a contact pair.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Opposite {
+    /// A rigid obstacle.
+    Obstacle(Obstacle),
+    /// The surface of a body: another one, or the other face of a crack in the same.
+    Surface {
+        /// Index of that body.
+        body: usize,
+        /// Its facets.
+        facets: Vec<Facet>,
+    },
+}
+
+/// The nodes of the other side that a contact is coupled to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct OppositeNodes {
+    /// Index of the body.
+    pub body: usize,
+    /// Nodes and their mortar weights, which add up to one.
+    pub nodes: Vec<(usize, f64)>,
+}
+
+/// One node of the contact surface, facing the other side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactNode {
-    /// Node of the mesh.
+    /// Index of the body.
+    pub body: usize,
+    /// Node of its mesh.
     pub node: usize,
+    /// The other side; none if that is a rigid obstacle.
+    pub opposite: Option<OppositeNodes>,
     /// Index of the contact pair.
     pub pair: usize,
     /// Position before loading, in metre.
     pub position: [f64; 3],
-    /// Orthonormal rows: normal (towards the obstacle), then the tangents.
+    /// Orthonormal rows: normal (towards the other side), then the tangents.
     pub frame: [[f64; 3]; 3],
     /// Number of tangents that the contact problem holds: 0 without friction, at most
     /// 1 in 2D and 2 in 3D, fewer where a support holds one.
     pub tangents: usize,
-    /// Distance along the normal to the obstacle before loading, in metre.
+    /// Distance along the normal to the other side before loading, in metre.
     pub initial_gap: f64,
     /// Tributary area, in m² (2D: m² for the body's depth).
     pub area: f64,
@@ -53,56 +83,73 @@ pub struct ContactNode {
 pub struct ContactSurface {
     /// Contact nodes, one per contact.
     pub nodes: Vec<ContactNode>,
-    /// Facets that face their obstacle (mesh node numbers, outward order), for areas and
-    /// plots; their nodes are contact nodes or left out.
-    pub facets: Vec<Facet>,
-    /// Nodes of the surface that are no contacts because a support holds their normal.
-    pub left_out: Vec<usize>,
+    /// Facets that face the other side, with the index of their body (its node numbers,
+    /// outward order), for areas and plots; their nodes are contact nodes or left out.
+    pub facets: Vec<(usize, Facet)>,
+    /// Bodies and nodes of the surface that are no contacts because a support holds
+    /// their normal.
+    pub left_out: Vec<(usize, usize)>,
 }
 
 impl ContactSurface {
     /// Finds the contact nodes of all pairs.
     ///
-    /// `prescribed` holds the prescribed displacement per degree of freedom
+    /// `prescribed` holds the prescribed displacement per body and degree of freedom
     /// (`node · dimension + axis`), in metre.
     ///
     /// # Errors
     ///
     /// An obstacle without a surface, a friction coefficient that is negative or not
     /// finite, a facet that is not on the boundary, a pair of which nothing faces the
-    /// obstacle, a node in two pairs, a support at an angle to a contact normal, a
-    /// support that drags a contact with friction, or no contact node at all.
+    /// other side, a support at an angle to a contact normal, a support that drags a
+    /// contact with friction, or no contact node at all.
     pub fn new(
-        body: &Body,
+        bodies: &[Body],
         pairs: &[ContactPair],
-        prescribed: &[Option<f64>],
+        prescribed: &[Vec<Option<f64>>],
     ) -> Result<Self, Error> {
         let mut surface = Self::default();
-        let boundary = Boundary::new(&body.mesh);
-        let mut contact_of_node = HashMap::new();
-        let mut pair_of_facet = HashMap::new();
+        let boundaries: Vec<Boundary> = bodies
+            .iter()
+            .map(|body| Boundary::new(&body.mesh))
+            .collect();
         for (index, pair) in pairs.iter().enumerate() {
+            let Some(body) = bodies.get(pair.body) else {
+                return Err(Error::UnknownIndex {
+                    place: pair.place.clone(),
+                    what: "body",
+                    index: pair.body,
+                    count: bodies.len(),
+                });
+            };
             pair.check(body.mesh.dimension)?;
-            let facing = boundary.facing(pair, index, &mut pair_of_facet)?;
-            for (node, area) in areas(body, &facing) {
-                let Some(contact) = contact(body, pair, index, node, area, prescribed)? else {
-                    surface.left_out.push(node);
-                    continue;
-                };
-                if let Some(before) = contact_of_node.insert(node, surface.nodes.len()) {
-                    let first: &ContactNode = &surface.nodes[before];
-                    return Err(Error::NodeInTwoPairs {
-                        node,
-                        position: contact.position,
-                        first: pairs[first.pair].place.clone(),
-                        second: pair.place.clone(),
-                    });
+            let mut found = match &pair.opposite {
+                Opposite::Obstacle(obstacle) => on_obstacle(
+                    body,
+                    pair,
+                    obstacle,
+                    &boundaries[pair.body],
+                    &prescribed[pair.body],
+                )?,
+                Opposite::Surface { body, facets } => {
+                    let opposite = OppositeSurface {
+                        body: *body,
+                        facets,
+                    };
+                    between_surfaces(bodies, prescribed, pair, &opposite)?
                 }
-                surface.nodes.push(contact);
+            };
+            boundaries[pair.body].mark_rims(&mut found.contacts, &pair.facets);
+            for contact in &mut found.contacts {
+                contact.pair = index;
             }
+            surface.nodes.append(&mut found.contacts);
             surface
                 .facets
-                .extend(facing.into_iter().map(|(facet, _)| facet));
+                .extend(found.facets.into_iter().map(|facet| (pair.body, facet)));
+            surface
+                .left_out
+                .extend(found.left_out.into_iter().map(|node| (pair.body, node)));
         }
         if surface.nodes.is_empty() {
             return Err(Error::EmptyContactSurface {
@@ -110,18 +157,48 @@ impl ContactSurface {
                 left_out: surface.left_out.len(),
             });
         }
-        let left_out = &mut surface.left_out;
-        left_out.retain(|node| !contact_of_node.contains_key(node));
-        left_out.sort_unstable();
-        left_out.dedup();
-        boundary.mark_rims(&mut surface.nodes, &contact_of_node, &pair_of_facet);
+        surface.left_out.sort_unstable();
+        surface.left_out.dedup();
         Ok(surface)
     }
 }
 
+/// What one pair adds to the contact surface.
+pub(super) struct PairSurface {
+    pub(super) contacts: Vec<ContactNode>,
+    pub(super) facets: Vec<Facet>,
+    pub(super) left_out: Vec<usize>,
+}
+
+/// The contacts of a pair with a rigid obstacle.
+fn on_obstacle(
+    body: &Body,
+    pair: &ContactPair,
+    obstacle: &Obstacle,
+    boundary: &Boundary<'_>,
+    prescribed: &[Option<f64>],
+) -> Result<PairSurface, Error> {
+    let facing = boundary.facing(pair, obstacle)?;
+    let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
+    for (node, area) in areas(body, &facing) {
+        match contact(body, pair, obstacle, node, area, prescribed)? {
+            Some(contact) => contacts.push(contact),
+            None => left_out.push(node),
+        }
+    }
+    let facets = facing.into_iter().map(|(facet, _)| facet).collect();
+    Ok(PairSurface {
+        contacts,
+        facets,
+        left_out,
+    })
+}
+
 impl ContactPair {
     fn check(&self, dimension: usize) -> Result<(), Error> {
-        self.obstacle.check(&self.place, dimension)?;
+        if let Opposite::Obstacle(obstacle) = &self.opposite {
+            obstacle.check(&self.place, dimension)?;
+        }
         let place = format!("{}.friction", self.place);
         if self.friction.is_finite() && self.friction < 0.0 {
             return Err(Error::OutOfRange {
@@ -155,14 +232,14 @@ fn areas(body: &Body, facing: &[(Facet, FacetGeometry)]) -> Vec<(usize, f64)> {
 fn contact(
     body: &Body,
     pair: &ContactPair,
-    pair_index: usize,
+    obstacle: &Obstacle,
     node: usize,
     area: f64,
     prescribed: &[Option<f64>],
 ) -> Result<Option<ContactNode>, Error> {
     let dimension = body.mesh.dimension;
     let position = body.mesh.nodes[node];
-    let closest = pair.obstacle.closest(&pair.place, position)?;
+    let closest = obstacle.closest(&pair.place, position)?;
     let mut held = [None; 3];
     held[..dimension].copy_from_slice(&prescribed[node * dimension..(node + 1) * dimension]);
     let stance = Stance::new(dimension, closest.direction, held.map(|u| u.is_some()));
@@ -191,8 +268,10 @@ fn contact(
         });
     }
     Ok(Some(ContactNode {
+        body: pair.body,
         node,
-        pair: pair_index,
+        opposite: None,
+        pair: 0,
         position,
         frame,
         tangents: if pair.friction == 0.0 { 0 } else { kept },
@@ -229,13 +308,14 @@ mod tests {
         ContactPair {
             place: "contacts[0]".to_owned(),
             facets: facets.collect(),
-            obstacle: Obstacle::Plane { point, normal },
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
             friction: 0.3,
         }
     }
 
     fn find(body: &Body, pairs: &[ContactPair]) -> Result<ContactSurface, Error> {
-        ContactSurface::new(body, pairs, &prescribed(body)?)
+        ContactSurface::new(std::slice::from_ref(body), pairs, &[prescribed(body)?])
     }
 
     fn hold(body: &mut Body, nodes: &[usize], displacement: [Option<f64>; 3]) {
@@ -327,7 +407,10 @@ mod tests {
         let corner = bottom_right(&body);
         hold(&mut body, &[corner], [Some(0.0), Some(0.0), None]);
         let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
-        assert_eq!((surface.left_out, surface.nodes.len()), (vec![corner], 4));
+        assert_eq!(
+            (surface.left_out, surface.nodes.len()),
+            (vec![(0, corner)], 4)
+        );
         let all: Vec<usize> = (0..body.mesh.nodes.len()).collect();
         hold(&mut body, &all, [None, Some(0.0), None]);
         let found = find(&body, &[pair(&body, &["bottom"])]).unwrap_err();
@@ -372,25 +455,12 @@ mod tests {
         let corner = bottom_right(&body);
         hold(&mut body, &[corner], [Some(0.0), None, None]);
         let mut pair = pair(&body, &["bottom"]);
-        pair.obstacle = Obstacle::Plane {
+        pair.opposite = Opposite::Obstacle(Obstacle::Plane {
             point: [0.0, -1.0, 0.0],
             normal: [0.6, 0.8, 0.0],
-        };
+        });
         let found = find(&body, &[pair]).unwrap_err();
         assert!(found.to_string().contains("supported along x"), "{found}");
-    }
-
-    #[test]
-    fn a_node_in_two_pairs_is_refused_with_both_names() {
-        let body = block(CellKind::Quad4);
-        let mut second = pair(&body, &["bottom"]);
-        second.place = "contacts[1]".to_owned();
-        let found = find(&body, &[pair(&body, &["bottom"]), second]).unwrap_err();
-        let text = found.to_string();
-        assert!(
-            text.contains("contacts[0]") && text.contains("contacts[1]"),
-            "{text}"
-        );
     }
 
     #[test]
@@ -428,11 +498,11 @@ mod tests {
         // Cylinder of radius 2 below the origin: the gap at (x, 0) is √(x² + 4) − 2.
         let body = block(CellKind::Quad4);
         let mut round = pair(&body, &["bottom"]);
-        round.obstacle = Obstacle::Cylinder {
+        round.opposite = Opposite::Obstacle(Obstacle::Cylinder {
             center: [0.0, -2.0, 0.0],
             axis: [0.0, 0.0, 1.0],
             radius: 2.0,
-        };
+        });
         for contact in find(&body, &[round]).unwrap().nodes {
             let x = contact.position[0];
             assert!((contact.initial_gap - (x.hypot(2.0) - 2.0)).abs() < 1e-15);

@@ -9,27 +9,39 @@
 //!       r_T = t_T − P_disc(t_T − ρ_T u_T)                       ‖r‖ / max(‖t‖, floor)
 //! (K2)  f = (w·w / w·G w) w,   w = û + interference             load force, 1000 × floor
 //! (K3)  η = Σ [t_N (u_N − g₀) + t_T · u_T − μ t_N ‖u_T‖]        bipotential gap
-//! (K4)  K u = f + contact and support reactions                 equilibrium of the body
+//! (K4)  K u = f + contact and support reactions                 equilibrium of each body
+//! (K5)  u = R (u_own − Σ w_j u_j),   f_j = −w_j f_own           the two sides of a contact
+//! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
 //! ```
 //!
 //! It shares no code with the solver: it never sees a cone program or a sweep, only
 //! the problem and a reaction, and computes `u = û + G t` itself. Its [`Certificate`]
-//! decides when a solve may stop; [`balance`](balance()) looks at the whole body.
+//! decides when a solve may stop; [`balance`](balance()) looks at each whole body,
+//! [`surface_departure`](surface_departure()) at whether the bodies follow the condensed
+//! problem, [`exchange`](exchange()) at what they give each other.
 
 mod balance;
 mod bipotential;
 mod body_state;
 mod certificate;
 mod coulomb;
+mod exchange;
 mod judge;
 mod natural_map;
 mod resultant;
+#[cfg(test)]
+mod samples;
 mod scales;
+mod sides;
 mod signorini;
 mod state;
+mod surface_departure;
 
 pub use balance::{Balance, WorstNode, balance};
-pub use body_state::{BodyState, global_force};
+pub use body_state::BodyState;
 pub use certificate::{Certificate, ContactStatus, Verdict, Worst};
+pub use exchange::{Exchange, exchange};
 pub use judge::Judge;
 pub use resultant::{Defect, Resultant};
+pub use sides::{global_force, relative_displacement};
+pub use surface_departure::surface_departure;

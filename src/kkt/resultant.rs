@@ -43,7 +43,7 @@ impl Resultant {
 
 impl Defect {
     /// The length of a sum of vectors, compared with `scale`.
-    pub(super) fn of(parts: [[f64; 3]; 3], scale: f64) -> Self {
+    pub(super) fn of(parts: &[[f64; 3]], scale: f64) -> Self {
         let sum = [0, 1, 2].map(|axis| parts.iter().map(|part| part[axis]).sum());
         let value = infinite_if_nan(length(sum));
         let scaled = ratio(value, scale);
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn a_sum_that_is_not_a_number_is_an_infinite_defect() {
-        let found = Defect::of([[f64::NAN, 0.0, 0.0], [0.0; 3], [0.0; 3]], 1.0);
+        let found = Defect::of(&[[f64::NAN, 0.0, 0.0], [0.0; 3]], 1.0);
         assert_eq!((found.value, found.scaled), (f64::INFINITY, f64::INFINITY));
     }
 

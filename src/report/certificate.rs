@@ -1,7 +1,9 @@
-//! The judge's residuals and the balance of the body, under their stable names.
+//! The judge's residuals and the balance of the bodies, under their stable names.
 
 use serde::Serialize;
 
+use super::ReportParts;
+use crate::body::Body;
 use crate::kkt;
 
 /// Every law on the original problem, measured; see [`kkt::Certificate`].
@@ -25,8 +27,11 @@ pub struct Certificate {
     pub bipotential_gap: f64,
     /// Energy of the reaction, in joule: what the bipotential gap is compared with.
     pub reaction_energy: f64,
-    /// Equilibrium of the whole body.
-    pub balance: Balance,
+    /// Largest difference between the displacement of a contact in the recovered bodies and
+    /// in the condensed problem, in metre.
+    pub recovered: Worst,
+    /// Equilibrium of each whole body.
+    pub bodies: Vec<Balance>,
 }
 
 /// A residual with the contact where it is worst.
@@ -51,15 +56,15 @@ pub struct WorstNode {
     pub node: usize,
 }
 
-/// Equilibrium of the whole body, measured; see [`kkt::Balance`].
+/// Equilibrium of a whole body, measured; see [`kkt::Balance`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Balance {
+    /// Name of the body.
+    pub name: String,
     /// Largest nodal force that nothing carries, in newton.
     pub equilibrium: WorstNode,
     /// Largest departure from a given displacement, in metre.
     pub support: WorstNode,
-    /// Largest difference between the body's and the condensed displacement, in metre.
-    pub surface: Worst,
     /// Given forces.
     pub loads: Resultant,
     /// Contact forces on the body.
@@ -91,11 +96,9 @@ pub struct Defect {
 }
 
 impl Certificate {
-    pub(super) fn new(
-        measured: &kkt::Certificate,
-        balance: &kkt::Balance,
-        dimension: usize,
-    ) -> Self {
+    pub(super) fn new(parts: &ReportParts<'_>) -> Self {
+        let measured = &parts.outcome.verdict.certificate;
+        let bodies = parts.bodies.iter().zip(parts.balances);
         Self {
             natural_map: measured.natural_map,
             penetration: measured.penetration.into(),
@@ -105,16 +108,26 @@ impl Certificate {
             dissipation_defect: measured.dissipation_defect.into(),
             bipotential_gap: measured.bipotential_gap,
             reaction_energy: measured.reaction_energy,
-            balance: Balance {
-                equilibrium: balance.equilibrium.into(),
-                support: balance.support.into(),
-                surface: balance.surface.into(),
-                loads: Resultant::new(&balance.loads, dimension),
-                contact: Resultant::new(&balance.contact, dimension),
-                supports: Resultant::new(&balance.supports, dimension),
-                force_defect: balance.force_defect.into(),
-                moment_defect: balance.moment_defect.into(),
-            },
+            recovered: parts.departure.into(),
+            bodies: bodies
+                .map(|(body, balance)| Balance::new(body, balance))
+                .collect(),
+        }
+    }
+}
+
+impl Balance {
+    fn new(body: &Body, measured: &kkt::Balance) -> Self {
+        let dimension = body.mesh.dimension;
+        Self {
+            name: body.name.clone(),
+            equilibrium: measured.equilibrium.into(),
+            support: measured.support.into(),
+            loads: Resultant::new(&measured.loads, dimension),
+            contact: Resultant::new(&measured.contact, dimension),
+            supports: Resultant::new(&measured.supports, dimension),
+            force_defect: measured.force_defect.into(),
+            moment_defect: measured.moment_defect.into(),
         }
     }
 }
@@ -168,7 +181,7 @@ impl From<kkt::Defect> for Defect {
     }
 }
 
-/// A vector in global axes with as many components as the body has dimensions.
+/// A vector in global axes with as many components as the bodies have dimensions.
 pub(super) fn in_dimension(vector: [f64; 3], dimension: usize) -> Vec<f64> {
     vector.into_iter().take(dimension).collect()
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ReportParts;
 use super::certificate::in_dimension;
 use crate::condensation::ContactNode;
-use crate::kkt::{ContactStatus, global_force};
+use crate::kkt::{ContactStatus, global_force, relative_displacement};
 
 /// What a contact does, as reports spell it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -19,22 +19,25 @@ pub enum ContactState {
     Slip,
 }
 
-/// One contact; vectors in global axes with the body's dimension.
+/// One contact; vectors in global axes with the bodies' dimension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contact {
-    /// Node of the mesh, from 0.
+    /// The body it belongs to, as an index into the certificate's `bodies`.
+    pub body: usize,
+    /// Node of that body's mesh, from 0.
     pub node: usize,
     /// Contact pair of the scene, from 0.
     pub pair: usize,
     /// Position before loading, in metre.
     pub position: Vec<f64>,
-    /// Unit normal, out of the body towards the obstacle.
+    /// Unit normal, out of the body towards the other side.
     pub normal: Vec<f64>,
     /// What it does.
     pub state: ContactState,
-    /// Distance left to the obstacle, in metre.
+    /// Distance left to the other side, in metre.
     pub gap: f64,
-    /// Tangential displacement since the start of the load step, in metre.
+    /// Tangential displacement relative to the other side since the start of the load step,
+    /// in metre.
     pub slip: Vec<f64>,
     /// Tributary area, in m².
     pub area: f64,
@@ -46,7 +49,7 @@ pub struct Contact {
     pub friction_traction: Option<Vec<f64>>,
 }
 
-/// Reactions of one contact, before they are cut to the body's dimension.
+/// Reactions of one contact, before they are cut to the bodies' dimension.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ContactForce {
     /// `−t_N`, in newton.
@@ -58,12 +61,12 @@ pub(super) struct ContactForce {
 }
 
 /// The contacts of a report, in the order of the contact problem.
-pub(super) fn contacts(parts: &ReportParts<'_>) -> Vec<Contact> {
-    let dimension = parts.body.mesh.dimension;
-    let forces = contact_forces(parts);
-    let nodes = parts.surface.nodes.iter().zip(&forces).enumerate();
+pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<Contact> {
+    let dimension = parts.dimension();
+    let nodes = parts.surface.nodes.iter().zip(forces).enumerate();
     nodes
         .map(|(i, (contact, force))| Contact {
+            body: contact.body,
             node: contact.node,
             pair: contact.pair,
             position: in_dimension(contact.position, dimension),
@@ -107,18 +110,14 @@ fn gap(parts: &ReportParts<'_>, contact: usize) -> f64 {
     parts.problem.initial_gap()[contact] - parts.outcome.verdict.displacement[normal]
 }
 
-/// `u − (u·n) n` of the body at the contact's node, in metre. Not read from the contact
-/// problem, which holds no tangent where there is no friction: the body slides all the same.
+/// `u − (u·n) n` of the relative displacement u in the recovered bodies, in metre. Not read
+/// from the contact problem, which holds no tangent where there is no friction: the bodies
+/// slide all the same.
 fn slip(parts: &ReportParts<'_>, contact: &ContactNode) -> [f64; 3] {
-    let dimension = parts.body.mesh.dimension;
-    let mut slip = [0.0; 3];
-    slip[..dimension].copy_from_slice(&parts.displacement[contact.node * dimension..][..dimension]);
+    let slip = relative_displacement(contact, parts.displacements, parts.dimension());
     let normal = contact.frame[0];
     let along: f64 = slip.iter().zip(normal).map(|(u, n)| u * n).sum();
-    for axis in 0..3 {
-        slip[axis] -= along * normal[axis];
-    }
-    slip
+    [0, 1, 2].map(|axis| slip[axis] - along * normal[axis])
 }
 
 /// A traction; none for a contact without area, whose force has no finite one.

@@ -1,9 +1,9 @@
 //! REPORT: what the user reads.
 //!
 //! One [`Report`] holds the answer under stable names; it is written as JSON, as a short
-//! text ([`Report::summary`]) and, with the fields of the body, as VTU files ([`vtu`]).
+//! text ([`Report::summary`]) and, with the fields of the bodies, as VTU files ([`vtu`]).
 //! Lengths, forces and pressures are in the units of the scene, whose label is echoed
-//! and never converts. A contact force acts on the body; pressure is positive.
+//! and never converts. A contact force acts on the contact's own body; pressure is positive.
 
 mod certificate;
 mod contacts;
@@ -19,11 +19,11 @@ use serde::Serialize;
 pub use certificate::{Balance, Certificate, Defect, Resultant, Worst, WorstNode};
 pub use contacts::{Contact, ContactState};
 pub use file::replace_file;
-pub use totals::Totals;
+pub use totals::{Exchange, PairTotals, Totals};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
 use crate::body::Body;
-use crate::condensation::{ContactProblem, ContactSurface};
+use crate::condensation::{ContactPair, ContactProblem, ContactSurface};
 use crate::dpana::{self, Outcome};
 use crate::error::{Error, check_length};
 use crate::kkt;
@@ -39,9 +39,9 @@ pub struct Report {
     pub status: Status,
     /// Size of the problem.
     pub size: Size,
-    /// Every law and the balance, measured.
+    /// Every law and the balance of every body, measured.
     pub certificate: Certificate,
-    /// Totals over the contact surface.
+    /// Totals over the contact surface, and pair by pair.
     pub totals: Totals,
     /// What it took.
     pub work: Work,
@@ -66,18 +66,31 @@ pub enum Status {
 }
 
 /// Size of the problem.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Size {
-    /// Dimension of the body, 2 or 3.
+    /// Dimension of the bodies, 2 or 3.
     pub dimension: usize,
-    /// Nodes of the mesh.
+    /// Nodes of all meshes.
     pub nodes: usize,
-    /// Cells of the mesh.
+    /// Cells of all meshes.
     pub cells: usize,
     /// Contacts.
     pub contacts: usize,
     /// Unknowns of the condensed problem.
     pub contact_unknowns: usize,
+    /// Body by body.
+    pub bodies: Vec<BodySize>,
+}
+
+/// Size of a body.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct BodySize {
+    /// Name of the body.
+    pub name: String,
+    /// Nodes of its mesh.
+    pub nodes: usize,
+    /// Cells of its mesh.
+    pub cells: usize,
 }
 
 /// What a report is made of.
@@ -87,18 +100,22 @@ pub struct ReportParts<'a> {
     pub title: &'a str,
     /// The scene's label of units; empty where it names none.
     pub units: &'a str,
-    /// The body.
-    pub body: &'a Body,
-    /// Its contact surface.
+    /// The bodies, all in 2D or all in 3D.
+    pub bodies: &'a [Body],
+    /// What may touch what.
+    pub pairs: &'a [ContactPair],
+    /// Contacts of all pairs.
     pub surface: &'a ContactSurface,
     /// The condensed problem on that surface.
     pub problem: &'a ContactProblem,
     /// The solved problem.
     pub outcome: &'a Outcome,
-    /// Recovered displacement per unknown of the body (`node · dimension + axis`), in metre.
-    pub displacement: &'a [f64],
-    /// Equilibrium of the body in that displacement.
-    pub balance: &'a kkt::Balance,
+    /// Recovered displacement per body and unknown (`node · dimension + axis`), in metre.
+    pub displacements: &'a [Vec<f64>],
+    /// Equilibrium of each body in that displacement.
+    pub balances: &'a [kkt::Balance],
+    /// How far that displacement is from the condensed problem's at the contacts.
+    pub departure: kkt::Worst,
     /// What the stages around the outer loop took.
     pub stages: &'a StageWork,
     /// Notes of other stages; those on the contact surface are added here.
@@ -110,28 +127,29 @@ impl Report {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] or [`Error::OutOfRange`] if the parts do not belong together.
+    /// [`Error::Length`], [`Error::UnknownIndex`] or [`Error::WrongDimension`] if the parts do
+    /// not belong together, [`Error::Empty`] without a body.
     pub fn new(parts: &ReportParts<'_>) -> Result<Self, Error> {
         check(parts)?;
-        let (mesh, outcome) = (&parts.body.mesh, parts.outcome);
-        let measured = &outcome.verdict.certificate;
+        let exchanges = kkt::exchange(
+            parts.bodies,
+            parts.pairs,
+            parts.surface,
+            parts.problem,
+            &parts.outcome.reaction,
+        )?;
+        let forces = contacts::contact_forces(parts);
         Ok(Self {
             title: parts.title.to_owned(),
             units: parts.units.to_owned(),
-            status: outcome.status.into(),
-            size: Size {
-                dimension: mesh.dimension,
-                nodes: mesh.nodes.len(),
-                cells: mesh.cell_count(),
-                contacts: parts.problem.contacts(),
-                contact_unknowns: parts.problem.unknowns(),
-            },
-            certificate: Certificate::new(measured, parts.balance, mesh.dimension),
-            totals: Totals::new(parts),
+            status: parts.outcome.status.into(),
+            size: Size::new(parts),
+            certificate: Certificate::new(parts),
+            totals: Totals::new(parts, &exchanges, &forces),
             work: Work::new(parts),
-            history: outcome.history.iter().map(Sweep::from).collect(),
+            history: parts.outcome.history.iter().map(Sweep::from).collect(),
             notes: notes::notes(parts),
-            contacts: contacts::contacts(parts),
+            contacts: contacts::contacts(parts, &forces),
         })
     }
 
@@ -159,29 +177,56 @@ impl From<dpana::Status> for Status {
     }
 }
 
+impl Size {
+    fn new(parts: &ReportParts<'_>) -> Self {
+        let bodies = parts.bodies.iter().map(|body| BodySize {
+            name: body.name.clone(),
+            nodes: body.mesh.nodes.len(),
+            cells: body.mesh.cell_count(),
+        });
+        let bodies: Vec<BodySize> = bodies.collect();
+        Self {
+            dimension: parts.dimension(),
+            nodes: bodies.iter().map(|body| body.nodes).sum(),
+            cells: bodies.iter().map(|body| body.cells).sum(),
+            contacts: parts.problem.contacts(),
+            contact_unknowns: parts.problem.unknowns(),
+            bodies,
+        }
+    }
+}
+
+impl ReportParts<'_> {
+    /// Dimension of the bodies; they have the same.
+    fn dimension(&self) -> usize {
+        self.bodies.first().map_or(0, |body| body.mesh.dimension)
+    }
+}
+
+/// Refuses parts of different sizes; that contacts stand at nodes is checked by the judge.
 fn check(parts: &ReportParts<'_>) -> Result<(), Error> {
-    let (mesh, verdict) = (&parts.body.mesh, &parts.outcome.verdict);
+    let (count, verdict) = (parts.bodies.len(), &parts.outcome.verdict);
+    if count == 0 {
+        let place = "bodies".to_owned();
+        return Err(Error::Empty { place });
+    }
+    check_length("displacements", count, parts.displacements.len())?;
+    check_length("balances", count, parts.balances.len())?;
+    for (index, (body, displacement)) in parts.bodies.iter().zip(parts.displacements).enumerate() {
+        let (dimension, nodes) = (body.mesh.dimension, body.mesh.nodes.len());
+        if dimension != parts.dimension() {
+            return Err(Error::WrongDimension {
+                place: format!("bodies[{index}]"),
+                expected: parts.dimension(),
+                found: dimension,
+            });
+        }
+        let place = format!("displacements[{index}]");
+        check_length(&place, nodes * dimension, displacement.len())?;
+    }
     let (contacts, unknowns) = (parts.problem.contacts(), parts.problem.unknowns());
     check_length("contact nodes", contacts, parts.surface.nodes.len())?;
     check_length("status", contacts, verdict.status.len())?;
     check_length("reaction", unknowns, parts.outcome.reaction.len())?;
-    check_length("contact displacement", unknowns, verdict.displacement.len())?;
-    check_length(
-        "displacement",
-        mesh.nodes.len() * mesh.dimension,
-        parts.displacement.len(),
-    )?;
-    let stray = parts
-        .surface
-        .nodes
-        .iter()
-        .position(|contact| contact.node >= mesh.nodes.len());
-    match stray {
-        None => Ok(()),
-        Some(contact) => Err(Error::OutOfRange {
-            place: format!("contact nodes[{contact}]"),
-            value: parts.surface.nodes[contact].node as f64,
-            accepted: "a node of the mesh",
-        }),
-    }
+    check_length("contact displacement", unknowns, verdict.displacement.len())
 }

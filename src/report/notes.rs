@@ -9,10 +9,9 @@ const NAMED: usize = 5;
 /// Notes on the contact surface, after those that the scene's own stages made.
 pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
     let mut notes = parts.notes.to_vec();
-    if !parts.surface.left_out.is_empty() {
+    for nodes in named_by_body(parts, &parts.surface.left_out) {
         notes.push(format!(
-            "{}: no contact here, a support holds the normal displacement",
-            named(&parts.surface.left_out)
+            "{nodes}: no contact here, a support holds the normal displacement"
         ));
     }
     let contacts = parts
@@ -20,18 +19,32 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
         .nodes
         .iter()
         .zip(&parts.outcome.verdict.status);
-    let at_rim: Vec<usize> = contacts
+    let at_rim: Vec<(usize, usize)> = contacts
         .filter(|(contact, status)| contact.rim && **status != ContactStatus::Open)
-        .map(|(contact, _)| contact.node)
+        .map(|(contact, _)| (contact.body, contact.node))
         .collect();
-    if !at_rim.is_empty() {
+    for nodes in named_by_body(parts, &at_rim) {
         notes.push(format!(
-            "{}: contact reaches the rim of the assumed contact surface; enlarge \
-             it, the true contact may go on beyond",
-            named(&at_rim)
+            "{nodes}: contact reaches the rim of the assumed contact surface; enlarge \
+             it, the true contact may go on beyond"
         ));
     }
     notes
+}
+
+/// Nodes in words, body by body; the body's name only says something beside another body.
+fn named_by_body(parts: &ReportParts<'_>, nodes: &[(usize, usize)]) -> Vec<String> {
+    let mut words = Vec::new();
+    for (index, body) in parts.bodies.iter().enumerate() {
+        let of_body = nodes.iter().filter(|(body, _)| *body == index);
+        let of_body: Vec<usize> = of_body.map(|&(_, node)| node).collect();
+        match (of_body.is_empty(), parts.bodies.len()) {
+            (true, _) => {}
+            (false, 1) => words.push(named(&of_body)),
+            (false, _) => words.push(format!("body `{}`, {}", body.name, named(&of_body))),
+        }
+    }
+    words
 }
 
 /// `node 4`, `nodes 4, 7` or `12 nodes (1, 2, 3, 4, 5, ...)`, counted from 0.

@@ -2,14 +2,19 @@
 
 use std::fmt::Write;
 
-use super::{Report, Status};
+use super::{Balance, Defect, Report, Status};
 
-/// About twenty aligned lines: status, contacts, totals, worst violations, work, notes.
+/// How many contact pairs the summary lists before it only counts them.
+const LISTED: usize = 8;
+
+/// Twenty to forty aligned lines: status, contacts, totals, pairs if there are several,
+/// worst violations, work, notes.
 pub(super) fn summary(report: &Report) -> String {
     let mut text = String::new();
     // Writing into a string cannot fail.
     let _ = heading(&mut text, report)
         .and_then(|()| totals(&mut text, report))
+        .and_then(|()| pairs(&mut text, report))
         .and_then(|()| violations(&mut text, report))
         .and_then(|()| work(&mut text, report));
     for note in &report.notes {
@@ -38,9 +43,13 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         named => named,
     };
     writeln!(text, "units           {units}")?;
+    let bodies = match extent.bodies.len() {
+        1 => String::new(),
+        several => format!(" in {several} bodies"),
+    };
     writeln!(
         text,
-        "size            {}D, {} nodes, {} cells",
+        "size            {}D, {} nodes, {} cells{bodies}",
         extent.dimension, extent.nodes, extent.cells
     )
 }
@@ -66,8 +75,33 @@ fn totals(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(text, "peak pressure   {}", number(totals.peak_pressure))
 }
 
+/// One line per contact pair, if there are several.
+fn pairs(text: &mut String, report: &Report) -> std::fmt::Result {
+    let pairs = &report.totals.pairs;
+    if pairs.len() < 2 {
+        return Ok(());
+    }
+    writeln!(
+        text,
+        "pairs               open  stick   slip  normal force  peak pressure"
+    )?;
+    for pair in pairs.iter().take(LISTED) {
+        let (place, totals) = (&pair.place, &pair.totals);
+        let (open, stick, slip) = (totals.open, totals.stick, totals.slip);
+        let (normal, peak) = (number(totals.normal), number(totals.peak_pressure));
+        writeln!(
+            text,
+            "  {place:<16} {open:>5} {stick:>6} {slip:>6} {normal:>13} {peak:>14}"
+        )?;
+    }
+    match pairs.len().saturating_sub(LISTED) {
+        0 => Ok(()),
+        rest => writeln!(text, "  ... and {rest} more"),
+    }
+}
+
 fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
-    let (laws, balance) = (&report.certificate, &report.certificate.balance);
+    let laws = &report.certificate;
     writeln!(text, "worst violation         size    scaled")?;
     for (name, worst) in [
         ("penetration", laws.penetration),
@@ -79,17 +113,54 @@ fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
         let place = format!("contact {}", worst.contact);
         violation(text, name, worst.value, worst.scaled, &place)?;
     }
-    let nodal = balance.equilibrium;
-    violation(
-        text,
-        "equilibrium",
-        nodal.value,
-        nodal.scaled,
-        &format!("node {}", nodal.node),
-    )?;
-    let (force, moment) = (balance.force_defect, balance.moment_defect);
-    violation(text, "sum of forces", force.value, force.scaled, "")?;
-    violation(text, "sum of moments", moment.value, moment.scaled, "")
+    balances(text, &laws.bodies)?;
+    exchange(text, report)
+}
+
+/// Equilibrium where it is worst; the body's name only says something beside another body.
+fn balances(text: &mut String, bodies: &[Balance]) -> std::fmt::Result {
+    let of = |body: &Balance, node: String| match (bodies.len(), node.as_str()) {
+        (1, _) => node,
+        (_, "") => format!("body `{}`", body.name),
+        (_, node) => format!("body `{}`, {node}", body.name),
+    };
+    if let Some(body) = worst(bodies, |body| body.equilibrium.scaled) {
+        let nodal = body.equilibrium;
+        let place = of(body, format!("node {}", nodal.node));
+        violation(text, "equilibrium", nodal.value, nodal.scaled, &place)?;
+    }
+    type Sum = fn(&Balance) -> Defect;
+    let sums: [(&str, Sum); 2] = [
+        ("sum of forces", |body| body.force_defect),
+        ("sum of moments", |body| body.moment_defect),
+    ];
+    for (name, defect) in sums {
+        if let Some(body) = worst(bodies, |body| defect(body).scaled) {
+            let (defect, place) = (defect(body), of(body, String::new()));
+            violation(text, name, defect.value, defect.scaled, &place)?;
+        }
+    }
+    Ok(())
+}
+
+/// Action and reaction where they differ most, if any contact is between bodies.
+fn exchange(text: &mut String, report: &Report) -> std::fmt::Result {
+    let pairs = report.totals.pairs.iter();
+    let exchanges: Vec<_> = pairs
+        .filter_map(|pair| Some((&pair.place, pair.exchange.as_ref()?.force_defect)))
+        .collect();
+    match worst(&exchanges, |(_, defect)| defect.scaled) {
+        Some((place, defect)) => {
+            violation(text, "force exchange", defect.value, defect.scaled, place)
+        }
+        None => Ok(()),
+    }
+}
+
+/// The first of the largest.
+fn worst<T>(items: &[T], size: impl Fn(&T) -> f64) -> Option<&T> {
+    let reversed = items.iter().rev();
+    reversed.max_by(|a, b| size(a).total_cmp(&size(b)))
 }
 
 /// One line of the table; the place only says something where there is a violation.

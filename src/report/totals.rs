@@ -1,13 +1,14 @@
-//! Totals over the contact surface.
+//! Totals over the contact surface, and pair by pair.
 
 use serde::Serialize;
 
 use super::ReportParts;
-use super::certificate::{Resultant, in_dimension};
-use super::contacts::contact_forces;
+use super::certificate::{Defect, Resultant, in_dimension};
+use super::contacts::ContactForce;
+use crate::condensation::ContactNode;
 use crate::kkt::{self, ContactStatus};
 
-/// Totals over the contacts; vectors in global axes, forces act on the body.
+/// Totals over contacts; vectors in global axes, forces act on the contact's own body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Totals {
     /// Contacts without reaction.
@@ -30,42 +31,121 @@ pub struct Totals {
     pub slip_area: f64,
     /// Largest pressure, in pascal.
     pub peak_pressure: f64,
+    /// The same for each contact pair; a pair's own totals have none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pairs: Vec<PairTotals>,
+}
+
+/// Totals over the contacts of one pair.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PairTotals {
+    /// Where the scene says so, such as `contacts[0]`.
+    pub place: String,
+    /// Totals over its contacts.
+    #[serde(flatten)]
+    pub totals: Totals,
+    /// What the opposite body receives; `null` for a rigid obstacle.
+    pub exchange: Option<Exchange>,
+}
+
+/// What the opposite body of a pair receives, and what is left of action and reaction; see
+/// [`kkt::Exchange`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Exchange {
+    /// Contact forces on the opposite body.
+    pub opposite: Resultant,
+    /// Length of the sum of the forces on both sides, in newton.
+    pub force_defect: Defect,
+    /// Length of the sum of the moments on both sides, in newton metre; up to gap × friction.
+    pub moment_defect: Defect,
+}
+
+/// Sums while contacts are met.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    open: usize,
+    stick: usize,
+    slip: usize,
+    normal: f64,
+    friction: [f64; 3],
+    contact: kkt::Resultant,
+    stick_area: f64,
+    slip_area: f64,
+    peak_pressure: f64,
 }
 
 impl Totals {
-    pub(super) fn new(parts: &ReportParts<'_>) -> Self {
-        let dimension = parts.body.mesh.dimension;
-        let status = &parts.outcome.verdict.status;
-        let count = |wanted| status.iter().filter(|&&state| state == wanted).count();
-        let area = |wanted: &[ContactStatus]| {
-            let contacts = parts.surface.nodes.iter().zip(status);
-            let counted = contacts.filter(|(_, state)| wanted.contains(state));
-            counted
-                .map(|(contact, _)| contact.area)
-                .fold(0.0, |sum, area| sum + area)
-        };
-        let (mut sum, mut friction) = (kkt::Resultant::default(), [0.0; 3]);
-        let (mut normal, mut peak_pressure) = (0.0, 0.0_f64);
-        for (contact, force) in parts.surface.nodes.iter().zip(contact_forces(parts)) {
-            sum.add(contact.position, force.total);
-            normal += force.pressing;
-            (0..3).for_each(|axis| friction[axis] += force.friction[axis]);
-            if contact.area > 0.0 {
-                peak_pressure = peak_pressure.max(force.pressing / contact.area);
+    /// `exchanges` are per pair, `forces` per contact.
+    pub(super) fn new(
+        parts: &ReportParts<'_>,
+        exchanges: &[kkt::Exchange],
+        forces: &[ContactForce],
+    ) -> Self {
+        let mut all = Sums::default();
+        let mut of_pairs = vec![Sums::default(); parts.pairs.len()];
+        let contacts = parts.surface.nodes.iter().zip(forces);
+        for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
+            all.add(contact, force, status);
+            of_pairs[contact.pair].add(contact, force, status);
+        }
+        let dimension = parts.dimension();
+        let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges);
+        let pairs = pairs.map(|((pair, sums), exchange)| PairTotals {
+            place: pair.place.clone(),
+            totals: sums.totals(dimension, Vec::new()),
+            exchange: Exchange::new(exchange, dimension),
+        });
+        all.totals(dimension, pairs.collect())
+    }
+}
+
+impl Exchange {
+    fn new(measured: &kkt::Exchange, dimension: usize) -> Option<Self> {
+        Some(Self {
+            opposite: Resultant::new(&measured.opposite?, dimension),
+            force_defect: measured.force_defect.into(),
+            moment_defect: measured.moment_defect.into(),
+        })
+    }
+}
+
+impl Sums {
+    fn add(&mut self, contact: &ContactNode, force: &ContactForce, status: ContactStatus) {
+        match status {
+            ContactStatus::Open => self.open += 1,
+            ContactStatus::Stick => {
+                self.stick += 1;
+                self.stick_area += contact.area;
+            }
+            ContactStatus::Slip => {
+                self.slip += 1;
+                self.slip_area += contact.area;
             }
         }
-        let Resultant { force, moment } = Resultant::new(&sum, dimension);
-        Self {
-            open: count(ContactStatus::Open),
-            stick: count(ContactStatus::Stick),
-            slip: count(ContactStatus::Slip),
-            normal,
-            friction: in_dimension(friction, dimension),
+        self.normal += force.pressing;
+        for (sum, friction) in self.friction.iter_mut().zip(force.friction) {
+            *sum += friction;
+        }
+        self.contact.add(contact.position, force.total);
+        if contact.area > 0.0 {
+            self.peak_pressure = self.peak_pressure.max(force.pressing / contact.area);
+        }
+    }
+
+    fn totals(&self, dimension: usize, pairs: Vec<PairTotals>) -> Totals {
+        let Resultant { force, moment } = Resultant::new(&self.contact, dimension);
+        Totals {
+            open: self.open,
+            stick: self.stick,
+            slip: self.slip,
+            normal: self.normal,
+            friction: in_dimension(self.friction, dimension),
             contact_force: force,
             moment,
-            contact_area: area(&[ContactStatus::Stick, ContactStatus::Slip]),
-            slip_area: area(&[ContactStatus::Slip]),
-            peak_pressure,
+            contact_area: self.stick_area + self.slip_area,
+            slip_area: self.slip_area,
+            peak_pressure: self.peak_pressure,
+            pairs,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Contacts: a part of a body's surface, the rigid obstacle it may touch, and friction.
+//! Contacts: a part of a body's surface, what it may touch, and friction.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -6,22 +6,34 @@ use serde::Deserialize;
 use super::selection::{self, norm, vector};
 use super::spelling;
 use crate::body::Body;
-use crate::condensation::{ContactPair, Obstacle};
+use crate::condensation::{ContactPair, Obstacle, Opposite};
 use crate::error::Error;
 
-/// A part of a body's surface that may touch a rigid obstacle.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+/// A part of a body's surface that may touch a rigid obstacle or another surface.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a contact")]
 pub struct SceneContact {
     /// Group of surface facets; it need only contain the true contact.
     pub group: String,
     /// Name of the body; may be left out while there is only one.
     pub body: Option<String>,
-    /// What the surface may touch.
-    pub obstacle: SceneObstacle,
+    /// The rigid obstacle that the surface may touch; this or `against`.
+    pub obstacle: Option<SceneObstacle>,
+    /// The other surface that it may touch; this or `obstacle`.
+    pub against: Option<SceneSurface>,
     /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
     #[schemars(range(min = 0))]
     pub friction: f64,
+}
+
+/// The opposite surface of a contact between two bodies, or across a crack in one.
+#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "a surface")]
+pub struct SceneSurface {
+    /// Name of the body; may be left out while there is only one.
+    pub body: Option<String>,
+    /// Group of surface facets.
+    pub group: String,
 }
 
 /// A rigid body that does not move; vectors have one entry per axis.
@@ -66,7 +78,7 @@ pub enum SceneObstacle {
 impl SceneContact {
     /// The contact in the terms of mechanics.
     pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
-        let body = self.body(place, bodies)?;
+        let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
         if !(self.friction >= 0.0 && self.friction.is_finite()) {
             return Err(Error::OutOfRange {
                 place: format!("{place}.friction"),
@@ -74,30 +86,67 @@ impl SceneContact {
                 accepted: "0 <= friction < infinity",
             });
         }
-        let obstacle = format!("{place}.obstacle");
+        let mesh = &bodies[body].mesh;
+        let opposite = match (&self.obstacle, &self.against) {
+            (Some(obstacle), None) => {
+                let place = format!("{place}.obstacle");
+                Opposite::Obstacle(obstacle.resolve(&place, mesh.dimension)?)
+            }
+            (None, Some(surface)) => surface.resolve(&format!("{place}.against"), bodies)?,
+            (given, _) => {
+                return Err(Error::NotAccepted {
+                    place: place.to_owned(),
+                    found: match given {
+                        Some(_) => "both `obstacle` and `against`".to_owned(),
+                        None => "neither `obstacle` nor `against`".to_owned(),
+                    },
+                    accepted: "one of the two".to_owned(),
+                });
+            }
+        };
         Ok(ContactPair {
             place: place.to_owned(),
-            obstacle: self.obstacle.resolve(&obstacle, body.mesh.dimension)?,
-            facets: selection::facets(&body.mesh, &format!("{place}.group"), &self.group)?,
+            body,
+            facets: selection::facets(mesh, &format!("{place}.group"), &self.group)?,
+            opposite,
             friction: self.friction,
         })
     }
+}
 
-    fn body<'a>(&self, place: &str, bodies: &'a [Body]) -> Result<&'a Body, Error> {
-        let named = bodies
-            .iter()
-            .find(|body| self.body.as_ref().is_none_or(|name| *name == body.name));
-        named.ok_or_else(|| {
-            let name = self.body.clone().unwrap_or_default();
-            let known = bodies.iter().map(|body| body.name.as_str());
-            Error::UnknownName {
-                place: format!("{place}.body"),
-                what: "body",
-                nearest: spelling::nearest(&name, known.clone()).map(str::to_owned),
-                name,
-                known: known.map(str::to_owned).collect(),
-            }
-        })
+impl SceneSurface {
+    fn resolve(&self, place: &str, bodies: &[Body]) -> Result<Opposite, Error> {
+        let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
+        let mesh = &bodies[body].mesh;
+        let facets = selection::facets(mesh, &format!("{place}.group"), &self.group)?;
+        Ok(Opposite::Surface { body, facets })
+    }
+}
+
+/// Index of a body by its name, which may be left out while there is only one.
+fn find_body(place: &str, name: Option<&str>, bodies: &[Body]) -> Result<usize, Error> {
+    let known = || bodies.iter().map(|body| body.name.as_str());
+    match (name, bodies) {
+        (None, [_]) => Ok(0),
+        (None, _) => Err(Error::NotAccepted {
+            place: place.to_owned(),
+            found: "no name".to_owned(),
+            accepted: format!(
+                "the name of one of the bodies: {}",
+                known().collect::<Vec<_>>().join(", ")
+            ),
+        }),
+        (Some(name), _) => {
+            known()
+                .position(|known| known == name)
+                .ok_or_else(|| Error::UnknownName {
+                    place: place.to_owned(),
+                    what: "body",
+                    nearest: spelling::nearest(name, known()).map(str::to_owned),
+                    name: name.to_owned(),
+                    known: known().map(str::to_owned).collect(),
+                })
+        }
     }
 }
 

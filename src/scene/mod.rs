@@ -32,13 +32,13 @@ use crate::dpana::{Settings, Variant};
 use crate::error::Error;
 
 pub use bare::BareProblem;
-pub use contact::{SceneContact, SceneObstacle};
+pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
 pub use support::SceneSupport;
 
-/// An elastic body on rigid obstacles, as the user states it.
+/// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
@@ -48,10 +48,10 @@ pub struct Scene {
     /// Label of the units, such as `m, N, Pa`: shown in reports, never used to convert.
     #[serde(default)]
     pub units: String,
-    /// The elastic bodies; exactly one for now.
+    /// The elastic bodies, all in 2D or all in 3D; names differ.
     #[schemars(length(min = 1, max = 1))]
     pub bodies: Vec<SceneBody>,
-    /// Where the bodies may touch obstacles; at least one.
+    /// Where the bodies may touch obstacles or each other; at least one.
     #[schemars(length(min = 1))]
     pub contacts: Vec<SceneContact>,
     /// When the solve may stop.
@@ -143,20 +143,17 @@ impl Scene {
 
     fn build(&self) -> Result<Mechanics, Error> {
         let settings = self.settings.resolve()?;
-        let [body] = &self.bodies[..] else {
-            return Err(Error::NotAccepted {
-                place: "bodies".to_owned(),
-                found: format!("a list of {}", self.bodies.len()),
-                accepted: "exactly one body".to_owned(),
-            });
-        };
         if self.contacts.is_empty() {
             return Err(Error::Empty {
                 place: "contacts".to_owned(),
             });
         }
         let folder = self.source.parent().unwrap_or(Path::new(""));
-        let bodies = vec![body.resolve("bodies[0]", folder)?];
+        let bodies = self.bodies.iter().enumerate();
+        let bodies: Vec<Body> = bodies
+            .map(|(at, body)| body.resolve(&format!("bodies[{at}]"), folder))
+            .collect::<Result<_, _>>()?;
+        check_together(&bodies)?;
         let contacts = self.contacts.iter().enumerate();
         let contacts = contacts
             .map(|(at, contact)| contact.resolve(&format!("contacts[{at}]"), &bodies))
@@ -167,6 +164,35 @@ impl Scene {
             settings,
         })
     }
+}
+
+/// Bodies of one scene live in one space, under names of their own.
+fn check_together(bodies: &[Body]) -> Result<(), Error> {
+    let Some(first) = bodies.first() else {
+        return Err(Error::Empty {
+            place: "bodies".to_owned(),
+        });
+    };
+    for (at, body) in bodies.iter().enumerate() {
+        if body.mesh.dimension != first.mesh.dimension {
+            return Err(Error::NotAccepted {
+                place: format!("bodies[{at}].mesh"),
+                found: format!("a mesh in {}D", body.mesh.dimension),
+                accepted: format!(
+                    "one in {}D, as that of `{}`",
+                    first.mesh.dimension, first.name
+                ),
+            });
+        }
+        if bodies[..at].iter().any(|other| other.name == body.name) {
+            return Err(Error::NotAccepted {
+                place: format!("bodies[{at}].name"),
+                found: format!("`{}` again", body.name),
+                accepted: "a name of its own for every body".to_owned(),
+            });
+        }
+    }
+    Ok(())
 }
 
 impl SceneSettings {
@@ -206,7 +232,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::{CellKind, Group, Load, Mesh, Model, rectangle};
-    use crate::condensation::Obstacle;
+    use crate::condensation::{Obstacle, Opposite};
 
     /// Two by two quads on a square of side 2 m, pressed on a line.
     const SQUARE: &str = r#"{
@@ -271,7 +297,8 @@ mod tests {
         );
         assert_eq!(contact.facets.len(), 2);
         let (point, normal) = ([0.0, -1.0, 0.0], [0.0, 1.0, 0.0]);
-        assert_eq!(contact.obstacle, Obstacle::Plane { point, normal });
+        let plane = Opposite::Obstacle(Obstacle::Plane { point, normal });
+        assert_eq!((contact.body, &contact.opposite), (0, &plane));
         assert_eq!(settings.max_sweeps, 7);
         assert_eq!(settings.tolerance, Settings::default().tolerance);
     }
@@ -298,10 +325,11 @@ mod tests {
             contacts: vec![SceneContact {
                 group: "bottom".into(),
                 body: Some("bar".into()),
-                obstacle: SceneObstacle::Circle {
+                obstacle: Some(SceneObstacle::Circle {
                     center: vec![0.0, -2.0],
                     radius: 1.5,
-                },
+                }),
+                against: None,
                 friction: 0.0,
             }],
             ..Scene::default()
@@ -313,12 +341,12 @@ mod tests {
             Model::PlaneStress { thickness: 0.1 }
         );
         assert_eq!(
-            mechanics.contacts[0].obstacle,
-            Obstacle::Cylinder {
+            mechanics.contacts[0].opposite,
+            Opposite::Obstacle(Obstacle::Cylinder {
                 center: [0.0, -2.0, 0.0],
                 axis: [0.0, 0.0, 1.0],
                 radius: 1.5
-            }
+            })
         );
     }
 

@@ -1,10 +1,10 @@
-//! The body: displacement and stress.
+//! The bodies: displacement and stress.
 
 use super::document::{Cells, Document, Section};
-use crate::body::{CellKind, Mesh};
+use crate::body::{CellKind, Mesh, von_mises};
 use crate::error::{Error, check_length};
 
-/// Fields of a body; an empty field is left out of the file.
+/// Fields of a body; a field that is empty in all bodies is left out of the file.
 ///
 /// Stresses are `[xx, yy, zz, yz, xz, xy]`, in pascal.
 #[derive(Clone, Copy, Debug)]
@@ -15,49 +15,53 @@ pub struct BodyFields<'a> {
     pub displacement: &'a [f64],
     /// Stress per node.
     pub nodal_stress: &'a [[f64; 6]],
-    /// Von Mises stress per node, in pascal.
-    pub nodal_von_mises: &'a [f64],
     /// Stress per cell.
     pub cell_stress: &'a [[f64; 6]],
-    /// Von Mises stress per cell, in pascal.
-    pub cell_von_mises: &'a [f64],
 }
 
-/// The body as a VTU document: `displacement`, `stress`, `von_mises` at points, the
-/// latter two also at cells.
+/// All bodies as one VTU document, one after the other: `displacement`, `stress`,
+/// `von_mises` at points, the latter two also at cells, and at both `body`, which body it
+/// is, from 0.
 ///
 /// # Errors
 ///
-/// [`Error::Length`] for a field that is neither empty nor of the mesh's length.
-pub fn body_vtu(fields: &BodyFields<'_>) -> Result<String, Error> {
-    let mesh = fields.mesh;
-    let (nodes, count) = (mesh.nodes.len(), mesh.cell_count());
-    check_field(
-        "displacement",
-        nodes * mesh.dimension,
-        fields.displacement.len(),
-    )?;
-    check_field("nodal_stress", nodes, fields.nodal_stress.len())?;
-    check_field("nodal_von_mises", nodes, fields.nodal_von_mises.len())?;
-    check_field("cell_stress", count, fields.cell_stress.len())?;
-    check_field("cell_von_mises", count, fields.cell_von_mises.len())?;
+/// [`Error::Length`] for a field that is not of the mesh's length, unless it is empty in
+/// all bodies.
+pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
+    let moved = has_field(bodies, "displacement", |body| {
+        let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
+        (unknowns, body.displacement.len())
+    })?;
+    let stressed_nodes = has_field(bodies, "nodal_stress", |body| {
+        (body.mesh.nodes.len(), body.nodal_stress.len())
+    })?;
+    let stressed_cells = has_field(bodies, "cell_stress", |body| {
+        (body.mesh.cell_count(), body.cell_stress.len())
+    })?;
 
-    let mut cells = Cells::default();
-    for cell in mesh.cells() {
-        cells.push(vtk_kind(cell.kind), cell.nodes.iter().copied());
-    }
+    let (nodes, cells) = joined(bodies);
     let mut document = Document::new(nodes, &cells);
     document.section(Section::Points, |document| {
-        if !fields.displacement.is_empty() {
-            let vectors = fields.displacement.chunks(mesh.dimension).flat_map(padded);
+        if moved {
+            let vectors = bodies.iter().flat_map(|body| {
+                let of_nodes = body.displacement.chunks(body.mesh.dimension);
+                of_nodes.flat_map(padded)
+            });
             document.reals("displacement", 3, vectors);
         }
-        stress(document, fields.nodal_stress, fields.nodal_von_mises);
+        if stressed_nodes {
+            stress(document, bodies, |body| body.nodal_stress);
+        }
+        document.integers("body", indices(bodies, |mesh| mesh.nodes.len()));
     });
     document.section(Section::Cells, |document| {
-        stress(document, fields.cell_stress, fields.cell_von_mises);
+        if stressed_cells {
+            stress(document, bodies, |body| body.cell_stress);
+        }
+        document.integers("body", indices(bodies, Mesh::cell_count));
     });
-    Ok(document.finish(mesh.nodes.iter().copied(), &cells))
+    let points = bodies.iter().flat_map(|body| &body.mesh.nodes);
+    Ok(document.finish(points.copied(), &cells))
 }
 
 /// A vector of the body's dimension with three components.
@@ -65,24 +69,48 @@ pub(super) fn padded(vector: &[f64]) -> [f64; 3] {
     [0, 1, 2].map(|axis| vector.get(axis).copied().unwrap_or(0.0))
 }
 
-fn stress(document: &mut Document, tensors: &[[f64; 6]], von_mises: &[f64]) {
-    if !tensors.is_empty() {
-        let reordered = tensors
-            .iter()
-            .flat_map(|&[xx, yy, zz, yz, xz, xy]| [xx, yy, zz, xy, yz, xz]);
-        document.reals("stress", 6, reordered);
+/// Number of points, and the cells of all bodies between them.
+fn joined(bodies: &[BodyFields<'_>]) -> (usize, Cells) {
+    let (mut first, mut cells) = (0, Cells::default());
+    for body in bodies {
+        for cell in body.mesh.cells() {
+            let points = cell.nodes.iter().map(|node| first + node);
+            cells.push(vtk_kind(cell.kind), points);
+        }
+        first += body.mesh.nodes.len();
     }
-    if !von_mises.is_empty() {
-        document.reals("von_mises", 1, von_mises.iter().copied());
-    }
+    (first, cells)
 }
 
-fn check_field(place: &str, expected: usize, found: usize) -> Result<(), Error> {
-    if found == 0 {
-        Ok(())
-    } else {
-        check_length(place, expected, found)
+fn stress<'a>(
+    document: &mut Document,
+    bodies: &[BodyFields<'a>],
+    tensors: fn(&BodyFields<'a>) -> &'a [[f64; 6]],
+) {
+    let all = || bodies.iter().flat_map(tensors).copied();
+    let reordered = all().flat_map(|[xx, yy, zz, yz, xz, xy]| [xx, yy, zz, xy, yz, xz]);
+    document.reals("stress", 6, reordered);
+    document.reals("von_mises", 1, all().map(von_mises));
+}
+
+/// The index of each body, as often as it has entries.
+fn indices(bodies: &[BodyFields<'_>], entries: fn(&Mesh) -> usize) -> impl Iterator<Item = i32> {
+    let bodies = bodies.iter().enumerate();
+    bodies.flat_map(move |(index, body)| std::iter::repeat_n(index as i32, entries(body.mesh)))
+}
+
+/// Whether any body has a field, given its expected and found length; then all must.
+fn has_field<'a>(
+    bodies: &[BodyFields<'a>],
+    field: &str,
+    lengths: fn(&BodyFields<'a>) -> (usize, usize),
+) -> Result<bool, Error> {
+    let present = bodies.iter().any(|body| lengths(body).1 > 0);
+    for (index, body) in bodies.iter().enumerate().filter(|_| present) {
+        let (expected, found) = lengths(body);
+        check_length(&format!("bodies[{index}].{field}"), expected, found)?;
     }
+    Ok(present)
 }
 
 /// VTK's number of a cell; its order of nodes is the mesh's own.

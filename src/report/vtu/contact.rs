@@ -4,41 +4,46 @@ use std::collections::HashMap;
 
 use super::body::padded;
 use super::document::{Cells, Document, Section};
-use crate::body::{Facet, Mesh};
+use crate::body::{Body, Facet};
 use crate::error::{Error, check_length};
 use crate::report::{Contact, ContactState, Report};
 
 /// The contact surface of a report as a VTU document. One point per contact in the
-/// report's order, then the facet nodes that are no contacts.
+/// report's order, on the contact's own body, then the facet nodes that are no contacts.
 ///
+/// `facets` come with the index of their body, `displacements` are per body and unknown.
 /// Point arrays: `displacement`, `pressure`, `friction_traction`, `gap`, `slip`, `state`
-/// (0 open, 1 stick, 2 slip, −1 no contact), `node` (of the mesh). A value that does not
-/// exist (pressure without area, gap of what is no contact) is NaN, which plots leave blank.
+/// (0 open, 1 stick, 2 slip, −1 no contact), `body`, `node` (of its mesh); cells have
+/// `body`. A value that does not exist (pressure without area, gap of what is no contact)
+/// is NaN, which plots leave blank.
 ///
 /// # Errors
 ///
-/// [`Error::Length`] if the displacement is not the mesh's, [`Error::OutOfRange`] for a
-/// facet with a node that the mesh does not have.
+/// [`Error::Length`] if a displacement is not the mesh's, [`Error::UnknownIndex`] for a
+/// contact or a facet of a body, or at a node, that does not exist.
 pub fn contact_vtu(
     report: &Report,
-    mesh: &Mesh,
-    facets: &[Facet],
-    displacement: &[f64],
+    bodies: &[Body],
+    facets: &[(usize, Facet)],
+    displacements: &[Vec<f64>],
 ) -> Result<String, Error> {
-    check_length(
-        "displacement",
-        mesh.nodes.len() * mesh.dimension,
-        displacement.len(),
-    )?;
-    let (nodes, cells) = surface(&report.contacts, mesh, facets)?;
+    check_length("displacements", bodies.len(), displacements.len())?;
+    for (index, (body, displacement)) in bodies.iter().zip(displacements).enumerate() {
+        let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
+        let place = format!("displacements[{index}]");
+        check_length(&place, unknowns, displacement.len())?;
+    }
+    let surface = Surface::new(&report.contacts, bodies, facets)?;
+    let Surface { points, cells, .. } = &surface;
     let contacts = &report.contacts;
-    let mut document = Document::new(nodes.len(), &cells);
+    let mut document = Document::new(points.len(), cells);
     document.section(Section::Points, |document| {
-        let moved = nodes
-            .iter()
-            .map(|node| &displacement[node * mesh.dimension..][..mesh.dimension]);
+        let moved = points.iter().map(|&(body, node)| {
+            let dimension = bodies[body].mesh.dimension;
+            &displacements[body][node * dimension..][..dimension]
+        });
         document.reals("displacement", 3, moved.flat_map(padded));
-        let blank = nodes.len() - contacts.len();
+        let blank = points.len() - contacts.len();
         let scalar = |value: fn(&Contact) -> Option<f64>| {
             let values = contacts
                 .iter()
@@ -63,55 +68,83 @@ pub fn contact_vtu(
         document.reals("slip", 3, vector(|contact| Some(&contact.slip)));
         let states = contacts.iter().map(|contact| vtk_state(contact.state));
         document.integers("state", states.chain(std::iter::repeat_n(-1, blank)));
-        document.integers("node", nodes.iter().map(|&node| node as i32));
+        document.integers("body", points.iter().map(|&(body, _)| body as i32));
+        document.integers("node", points.iter().map(|&(_, node)| node as i32));
     });
-    Ok(document.finish(nodes.iter().map(|&node| mesh.nodes[node]), &cells))
+    document.section(Section::Cells, |document| {
+        let bodies = surface.body_of_cell.iter();
+        document.integers("body", bodies.map(|&body| body as i32));
+    });
+    let positions = points
+        .iter()
+        .map(|&(body, node)| bodies[body].mesh.nodes[node]);
+    Ok(document.finish(positions, cells))
 }
 
-/// Mesh nodes of the points, and the facets between them; a contact on no facet is a
-/// vertex, so that none is lost.
-fn surface(
-    contacts: &[Contact],
-    mesh: &Mesh,
-    facets: &[Facet],
-) -> Result<(Vec<usize>, Cells), Error> {
-    let mut nodes: Vec<usize> = contacts.iter().map(|contact| contact.node).collect();
-    let mut point_of: HashMap<usize, usize> = HashMap::new();
-    for (point, &node) in nodes.iter().enumerate() {
-        check_node(mesh, "contact", node)?;
-        point_of.entry(node).or_insert(point);
-    }
-    let mut on_facet = vec![false; contacts.len()];
-    let mut cells = Cells::default();
-    for facet in facets {
-        let mut points = Vec::with_capacity(facet.nodes.len());
-        for &node in &facet.nodes {
-            check_node(mesh, "facet", node)?;
-            let point = *point_of.entry(node).or_insert_with(|| {
-                nodes.push(node);
-                nodes.len() - 1
-            });
-            if let Some(seen) = on_facet.get_mut(point) {
-                *seen = true;
-            }
-            points.push(point);
+/// Body and node of the points, and the facets between them.
+#[derive(Debug, Default)]
+struct Surface {
+    points: Vec<(usize, usize)>,
+    cells: Cells,
+    body_of_cell: Vec<usize>,
+}
+
+impl Surface {
+    /// A contact on no facet is a vertex, so that none is lost.
+    fn new(
+        contacts: &[Contact],
+        bodies: &[Body],
+        facets: &[(usize, Facet)],
+    ) -> Result<Self, Error> {
+        let mut surface = Self::default();
+        let mut point_of: HashMap<(usize, usize), usize> = HashMap::new();
+        for (point, contact) in contacts.iter().enumerate() {
+            check_node(bodies, "contact", contact.body, contact.node)?;
+            surface.points.push((contact.body, contact.node));
+            point_of
+                .entry((contact.body, contact.node))
+                .or_insert(point);
         }
-        cells.push(vtk_facet(points.len()), points);
+        let mut on_facet = vec![false; contacts.len()];
+        for (body, facet) in facets {
+            let mut corners = Vec::with_capacity(facet.nodes.len());
+            for &node in &facet.nodes {
+                check_node(bodies, "facet", *body, node)?;
+                let point = *point_of.entry((*body, node)).or_insert_with(|| {
+                    surface.points.push((*body, node));
+                    surface.points.len() - 1
+                });
+                if let Some(seen) = on_facet.get_mut(point) {
+                    *seen = true;
+                }
+                corners.push(point);
+            }
+            surface.push(*body, corners);
+        }
+        for (point, _) in on_facet.iter().enumerate().filter(|(_, seen)| !**seen) {
+            surface.push(contacts[point].body, vec![point]);
+        }
+        Ok(surface)
     }
-    for (point, _) in on_facet.iter().enumerate().filter(|(_, seen)| !**seen) {
-        cells.push(vtk_facet(1), [point]);
+
+    fn push(&mut self, body: usize, corners: Vec<usize>) {
+        self.cells.push(vtk_facet(corners.len()), corners);
+        self.body_of_cell.push(body);
     }
-    Ok((nodes, cells))
 }
 
-fn check_node(mesh: &Mesh, what: &str, node: usize) -> Result<(), Error> {
-    if node < mesh.nodes.len() {
-        return Ok(());
-    }
-    Err(Error::OutOfRange {
-        place: format!("node of a {what}"),
-        value: node as f64,
-        accepted: "a node of the mesh",
+fn check_node(bodies: &[Body], what: &str, body: usize, node: usize) -> Result<(), Error> {
+    let nodes = bodies.get(body).map(|body| body.mesh.nodes.len());
+    let (what_is_missing, index, count) = match nodes {
+        Some(count) if node < count => return Ok(()),
+        Some(count) => ("node", node, count),
+        None => ("body", body, bodies.len()),
+    };
+    Err(Error::UnknownIndex {
+        place: format!("a {what}"),
+        what: what_is_missing,
+        index,
+        count,
     })
 }
 

@@ -1,4 +1,4 @@
-//! VTU files: the body and its contact surface, for ParaView and its kin.
+//! VTU files: the bodies and their contact surface, for ParaView and its kin.
 //!
 //! Points stand where they were before loading; warp them by `displacement`. In 2D all
 //! vectors have `z = 0`. Tensors have VTK's order xx, yy, zz, xy, yz, xz.
@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 pub use body::{BodyFields, body_vtu};
 pub use contact::contact_vtu;
 
-/// `block.vtu` → `block_contact.vtu`: where the contact surface goes when the body goes to `path`.
+/// `block.vtu` → `block_contact.vtu`: where the contact surface goes when the bodies go to `path`.
 #[must_use]
 pub fn contact_path(path: &Path) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();
@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_contact_surface_goes_beside_the_body() {
+    fn the_contact_surface_goes_beside_the_bodies() {
         assert_eq!(
             contact_path(Path::new("out/a.b.vtu")),
             Path::new("out/a.b_contact.vtu")
