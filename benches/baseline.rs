@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     println!("|---:|---:|---:|---:|---:|---:|---:|");
     for per_side in if quick { vec![8] } else { vec![16, 24, 32] } {
         let mechanics = dragged_cube(per_side)?.mechanics()?;
-        let condensed = Condensed::new(&mechanics.bodies[0], &mechanics.contacts)?;
+        let condensed = Condensed::new(&mechanics.bodies, &mechanics.contacts)?;
         for tolerance in [1e-8, 1e-12] {
             let duel = duel(condensed.problem(), tolerance)?;
             println!(

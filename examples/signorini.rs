@@ -64,7 +64,7 @@ fn solve(path: &Path) -> Result<(Solution, Report), Box<dyn Error>> {
 
 /// u_x of a node of the contact line, in 1e-6 m.
 fn slide(solution: &Solution, x: f64) -> f64 {
-    1e6 * solution.displacement_near([x, 0.0, 0.0])[0]
+    1e6 * solution.displacement_near(0, [x, 0.0, 0.0]).unwrap()[0]
 }
 
 fn print_beside_published(solution: &Solution, report: &Report) {

@@ -85,8 +85,8 @@ fn check_pressure(report: &Report, expected: impl Fn(&[f64]) -> f64) {
 
 /// The displacement of every node is `expected(position)`.
 fn check_displacement(solution: &Solution, expected: impl Fn([f64; 3]) -> [f64; 3]) {
-    let mesh = &solution.body().mesh;
-    let nodal = solution.displacement().chunks(mesh.dimension);
+    let mesh = &solution.bodies()[0].mesh;
+    let nodal = solution.displacements()[0].chunks(mesh.dimension);
     for (&position, found) in mesh.nodes.iter().zip(nodal) {
         for (u, expected) in found.iter().zip(expected(position)) {
             assert!(

@@ -22,10 +22,15 @@ fn assert_certified(solution: &Solution, name: &str) {
     let certificate = &solution.outcome().verdict.certificate;
     assert_eq!(solution.status(), Status::Certified, "{name}");
     assert!(certificate.natural_map <= 1e-12, "{name}: {certificate:?}");
-    let balance = solution.balance();
-    assert!(balance.equilibrium.scaled < 1e-10, "{name}: {balance:?}");
-    assert!(balance.force_defect.scaled < 1e-12, "{name}: {balance:?}");
-    assert_eq!(solution.condensed().work().factorisations, 1, "{name}");
+    for balance in solution.balances() {
+        assert!(balance.equilibrium.scaled < 1e-10, "{name}: {balance:?}");
+        assert!(balance.force_defect.scaled < 1e-12, "{name}: {balance:?}");
+    }
+    assert_eq!(
+        solution.condensed().work().factorisations,
+        solution.bodies().len(),
+        "{name}"
+    );
 }
 
 #[test]

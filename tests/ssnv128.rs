@@ -15,7 +15,7 @@ const POINTS: [f64; 5] = [0.0, 0.00125, 0.005, 0.0075, 0.01125];
 
 /// u_x at A to E, in 1e-6 m.
 fn displacements(solution: &Solution) -> [f64; 5] {
-    POINTS.map(|x| 1e6 * solution.displacement_near([x, 0.0, 0.0])[0])
+    POINTS.map(|x| 1e6 * solution.displacement_near(0, [x, 0.0, 0.0]).unwrap()[0])
 }
 
 /// The reference row to its last printed digit, counts of open, slipping and sticking nodes, balance.
@@ -26,7 +26,7 @@ fn check_row(solution: &Solution, expected: [f64; 5], open_slip_stick: [usize; 3
     for (found, expected) in displacements(solution).iter().zip(expected) {
         assert!((found - expected).abs() < 6e-6, "{found} {expected}");
     }
-    let (totals, balance) = (&report.totals, &report.certificate.balance);
+    let (totals, balance) = (&report.totals, &report.certificate.bodies[0]);
     assert_eq!([totals.open, totals.slip, totals.stick], open_slip_stick);
     assert!((totals.friction[0] / -1.4054e6 - 1.0).abs() < 1e-4);
     // The top carries 5e7 Pa · 0.04 m; the corner's support takes what the contact does not.
@@ -85,8 +85,8 @@ fn without_friction_the_stress_is_uniform_on_any_mesh() {
         }
         let solution = solve(&scene).unwrap();
         assert_eq!(solution.status(), Status::Certified);
-        let nodes = &solution.body().mesh.nodes;
-        for (node, u) in nodes.iter().zip(solution.displacement().chunks(2)) {
+        let nodes = &solution.bodies()[0].mesh.nodes;
+        for (node, u) in nodes.iter().zip(solution.displacements()[0].chunks(2)) {
             let linear = expected * (1.0 - node[0] / 0.04);
             assert!(
                 (u[0] - linear).abs() < 1e-12 * expected,

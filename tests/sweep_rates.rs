@@ -20,7 +20,7 @@ const RATES: [(f64, f64); 3] = [(0.0, 0.495), (0.2, 0.37), (0.3, 0.28)];
 
 fn square(poisson: f64, friction: f64) -> Condensed {
     let mechanics = square::scene(64, poisson, friction).mechanics().unwrap();
-    Condensed::new(&mechanics.bodies[0], &mechanics.contacts).unwrap()
+    Condensed::new(&mechanics.bodies, &mechanics.contacts).unwrap()
 }
 
 fn run(problem: &ContactProblem, variant: Variant, max_sweeps: usize) -> Outcome {

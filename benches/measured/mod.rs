@@ -63,26 +63,30 @@ fn header() -> String {
 /// nor factorisation.
 fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
     let mechanics = scene.mechanics()?;
-    let body = &mechanics.bodies[0];
-    let condensed = Condensed::new(body, &mechanics.contacts)?;
+    let bodies = &mechanics.bodies;
+    let condensed = Condensed::new(bodies, &mechanics.contacts)?;
     let start = Instant::now();
     let problem = condensed.problem();
     let outcome = dpana::dpana::solve(problem, &mechanics.settings)?;
-    let displacement = condensed.recover(&outcome.reaction)?;
-    let balance = kkt::balance(&BodyState {
-        body,
-        stiffness: condensed.stiffness(),
-        load: condensed.load(),
-        prescribed: condensed.prescribed(),
-        surface: condensed.surface(),
-        problem,
-        reaction: &outcome.reaction,
-        contact_displacement: &outcome.verdict.displacement,
-        displacement: &displacement,
-    })?;
+    let displacements = condensed.recover(&outcome.reaction)?;
+    let mut balanced = true;
+    for (index, (body, operators)) in bodies.iter().zip(condensed.bodies()).enumerate() {
+        let balance = kkt::balance(&BodyState {
+            index,
+            body,
+            stiffness: operators.stiffness(),
+            load: operators.load(),
+            prescribed: operators.prescribed(),
+            surface: condensed.surface(),
+            problem,
+            reaction: &outcome.reaction,
+            displacement: &displacements[index],
+        })?;
+        balanced &= balance.equilibrium.scaled <= 1e-8;
+    }
     let work = condensed.work();
     let rest = work.condensation_seconds + start.elapsed().as_secs_f64();
-    if outcome.status != Status::Certified || balance.equilibrium.scaled > 1e-8 {
+    if outcome.status != Status::Certified || !balanced {
         return Err(format!("{size} per side is not certified").into());
     }
     let (ordering, factorisation) = (work.ordering_seconds, work.factorisation_seconds);

@@ -7,6 +7,7 @@
 //! (B4)  λ V ḡ_a ḡ_bᵀ,  (B5)  λ V_p b_pa b_pbᵀ    for λ A_ab where ν ≥ 0.45     dilatation.rs
 //! (B6)  f_a = ∫ N_a b dV + ∫ N_a p dA + P_a                                    load.rs
 //! (B7)  u(x) = a + ω × (x − c)                   what supports have to hold    rigid.rs
+//! (B8)  mean of u_j · u_k = δ_jk                  what they leave free          rigid_modes.rs
 //! ```
 //!
 //! In order: [`check`](check()), [`prescribed`], [`free_motion`], then [`stiffness`](stiffness())
@@ -21,6 +22,7 @@ mod cell;
 mod check;
 mod dilatation;
 mod facet;
+mod fixing;
 pub mod gmsh;
 mod incidence;
 mod load;
@@ -30,6 +32,7 @@ mod material;
 pub mod mesh;
 mod quadrature;
 mod rigid;
+mod rigid_modes;
 #[cfg(test)]
 pub(crate) mod samples;
 mod sparsity;
@@ -40,10 +43,12 @@ mod support;
 
 pub use check::check;
 pub use facet::FacetGeometry;
+pub use fixing::fixing_dofs;
 pub use load::load_vector;
 pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
 pub use rigid::{RigidMotion, free_motion};
+pub use rigid_modes::{FreeModes, RigidMode, free_modes};
 pub use stiffness::stiffness;
 pub use stress::{cell_stress, nodal_stress, von_mises};
 pub use structured::{box_mesh, graded, rectangle};

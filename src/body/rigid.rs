@@ -20,7 +20,7 @@ use super::Body;
 const SMALLEST_ARM: f64 = 1e-6;
 
 /// `(a, ω L)`.
-type Motion = SVector<f64, 6>;
+pub(super) type Motion = SVector<f64, 6>;
 
 /// A rigid motion of a body, or of one of its unconnected parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub fn free_motion(body: &Body, prescribed: &[Option<f64>]) -> Option<RigidMotio
 }
 
 /// Nodes of each connected part, by joining the nodes of every cell.
-fn parts(body: &Body) -> Vec<Vec<usize>> {
+pub(super) fn parts(body: &Body) -> Vec<Vec<usize>> {
     let count = body.mesh.nodes.len();
     let mut parent: Vec<usize> = (0..count).collect();
     for cell in body.mesh.cells() {
@@ -85,14 +85,14 @@ fn root(parent: &mut [usize], mut node: usize) -> usize {
 }
 
 /// A connected part, as a rigid body.
-struct Part<'a> {
+pub(super) struct Part<'a> {
     body: &'a Body,
-    centre: Vector3<f64>,
-    size: f64,
+    pub(super) centre: Vector3<f64>,
+    pub(super) size: f64,
 }
 
 impl<'a> Part<'a> {
-    fn new(body: &'a Body, nodes: &[usize]) -> Self {
+    pub(super) fn new(body: &'a Body, nodes: &[usize]) -> Self {
         let at = |node: &usize| Vector3::from(body.mesh.nodes[*node]);
         let centre = nodes.iter().map(at).sum::<Vector3<f64>>() / nodes.len() as f64;
         let distance = |node| (at(node) - centre).norm();
@@ -102,12 +102,7 @@ impl<'a> Part<'a> {
 
     /// A motion that no row holds; a translation or a rotation about a global axis if there is one.
     fn free_motion(&self, nodes: &[usize], prescribed: &[Option<f64>]) -> Option<Motion> {
-        let mut held = Held::default();
-        if self.body.mesh.dimension == 2 {
-            // The plane itself holds the motions that leave it.
-            held.hold(&[2, 3, 4].map(unit));
-        }
-        held.hold(&self.rows(nodes, prescribed));
+        let held = self.held(nodes, prescribed);
         held.free()?;
         // Holding all but one translation, or all but one rotation, leaves that one or nothing.
         const OTHERS: [&[usize]; 6] = [
@@ -124,6 +119,32 @@ impl<'a> Part<'a> {
             candidate.free()
         });
         along_an_axis.or_else(|| held.free())
+    }
+
+    /// All motions that no row holds, as a basis: motions along and about the global axes first.
+    pub(super) fn free_basis(&self, nodes: &[usize], prescribed: &[Option<f64>]) -> Vec<Motion> {
+        let held = self.held(nodes, prescribed);
+        let mut all = held.clone();
+        // Holding what is free, largest remainder first, appends it to the basis.
+        all.hold(&std::array::from_fn::<_, 6, _>(unit));
+        all.basis.split_off(held.basis.len())
+    }
+
+    /// Displacement of the centre and rotation of a motion.
+    pub(super) fn split(&self, motion: Motion) -> (Vector3<f64>, Vector3<f64>) {
+        let translation = motion.fixed_rows::<3>(0).into();
+        (translation, motion.fixed_rows::<3>(3) / self.size)
+    }
+
+    /// What the prescribed components hold.
+    fn held(&self, nodes: &[usize], prescribed: &[Option<f64>]) -> Held {
+        let mut held = Held::default();
+        if self.body.mesh.dimension == 2 {
+            // The plane itself holds the motions that leave it.
+            held.hold(&[2, 3, 4].map(unit));
+        }
+        held.hold(&self.rows(nodes, prescribed));
+        held
     }
 
     /// One row per prescribed component: `u_k = a_k + (ω × r)_k = e_k · a + (r × e_k) · ω` (B7).
@@ -147,8 +168,7 @@ impl<'a> Part<'a> {
     }
 
     fn describe(&self, motion: Motion, several: bool) -> RigidMotion {
-        let translation: Vector3<f64> = motion.fixed_rows::<3>(0).into();
-        let rotation: Vector3<f64> = motion.fixed_rows::<3>(3) / self.size;
+        let (translation, rotation) = self.split(motion);
         let part = several.then(|| self.centre.into());
         if rotation.norm() * self.size < SMALLEST_ARM {
             return RigidMotion {
@@ -191,10 +211,10 @@ struct Held {
 }
 
 impl Held {
-    /// Holds more rows: the one with the largest remainder joins the basis, until none is left.
+    /// Holds more rows: the (first) one with the largest remainder joins the basis, until none is left.
     fn hold(&mut self, rows: &[Motion]) {
         while self.basis.len() < 6 {
-            let remainders = rows.iter().map(|row| self.remainder(*row));
+            let remainders = rows.iter().rev().map(|row| self.remainder(*row));
             let largest = remainders.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()));
             match largest {
                 Some(row) if row.norm() > SMALLEST_ARM => self.basis.push(row.normalize()),

@@ -1,17 +1,19 @@
-//! A convex quadratic program over non-positive numbers or discs, in Clarabel.
+//! Convex quadratic programs over cones, in Clarabel.
 //!
 //! ```text
-//! min ½ x·P x + q·x    s.t.  x ≤ 0            or    ‖x_i‖ ≤ b_i  for every disc i
+//! half-steps   min ½ x·P x + q·x    s.t.  x ≤ 0            or    ‖x_i‖ ≤ b_i  for every disc i
+//! whole cones  min ½ x·P x + q·x    s.t.  A x + s = b,  s ∈ {0} × R₊ × second-order cones
 //! ```
 //!
-//! Numbers are scaled to order one before Clarabel sees them: each variable (each
-//! disc as a whole, so that it stays a disc) by the root of its diagonal of P, and
-//! the whole by the largest entry of q. Tolerances then mean the same in all units.
+//! Numbers are scaled to order one before Clarabel sees them. [`ConeProgram`] does it itself:
+//! each variable (each disc as a whole, so that it stays a disc) by the root of its diagonal
+//! of P, and the whole by the largest entry of q. Who poses a [`ConicProgram`] has scaled it.
+//! Tolerances then mean the same in all units.
 
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{
     DefaultSettings, DefaultSettingsBuilder, DefaultSolver, IPSolver, NonnegativeConeT,
-    SecondOrderConeT, SupportedConeT,
+    SecondOrderConeT, SupportedConeT, ZeroConeT,
 };
 use faer::MatRef;
 
@@ -127,6 +129,113 @@ impl ConeProgram {
             b.resize(b.len() + disc[1] - disc[0], 0.0);
         }
         b
+    }
+}
+
+/// The cones of `s`, in the order of the rows.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct ConeSizes {
+    /// Rows where `s = 0`.
+    pub(crate) zero: usize,
+    /// Rows where `s ≥ 0`.
+    pub(crate) nonnegative: usize,
+    /// Dimensions of second-order cones, `s_0 ≥ ‖(s_1, …)‖`.
+    pub(crate) second_order: Vec<usize>,
+}
+
+/// A sparse matrix that is written column by column, rows in ascending order.
+#[derive(Clone, Debug)]
+pub(crate) struct Columns {
+    ends: Vec<usize>,
+    rows: Vec<usize>,
+    values: Vec<f64>,
+}
+
+impl Columns {
+    pub(crate) fn new() -> Self {
+        let (rows, values) = (Vec::new(), Vec::new());
+        let ends = vec![0];
+        Self { ends, rows, values }
+    }
+
+    /// An entry of the column at hand; zeros are not stored.
+    pub(crate) fn push(&mut self, row: usize, value: f64) {
+        if value != 0.0 {
+            self.rows.push(row);
+            self.values.push(value);
+        }
+    }
+
+    pub(crate) fn end_column(&mut self) {
+        self.ends.push(self.values.len());
+    }
+}
+
+/// `min ½ x·P x + q·x  s.t.  A x + s = b` over whole cones, set up for many `q` and `b`.
+pub(crate) struct ConicProgram {
+    solver: DefaultSolver<f64>,
+}
+
+/// What a solve over whole cones left.
+pub(crate) struct ConicSolution {
+    pub(crate) x: Vec<f64>,
+    /// One per row, in the dual cones: `P x + q + Aᵀ z = 0`.
+    pub(crate) multipliers: Vec<f64>,
+    pub(crate) iterations: usize,
+}
+
+impl ConicProgram {
+    /// Sets up P (dense symmetric, the upper triangle is read; `None` for zero), A and the cones.
+    pub(crate) fn new(
+        quadratic: Option<MatRef<'_, f64>>,
+        columns: Columns,
+        cones: &ConeSizes,
+    ) -> Option<Self> {
+        let size = columns.ends.len() - 1;
+        let height = cones.zero + cones.nonnegative + cones.second_order.iter().sum::<usize>();
+        let hessian = match quadratic {
+            Some(form) => scaled_upper_triangle(form, &vec![1.0; size]),
+            None => CscMatrix::zeros((size, size)),
+        };
+        let mut kinds = Vec::with_capacity(2 + cones.second_order.len());
+        if cones.zero > 0 {
+            kinds.push(ZeroConeT(cones.zero));
+        }
+        if cones.nonnegative > 0 {
+            kinds.push(NonnegativeConeT(cones.nonnegative));
+        }
+        kinds.extend(cones.second_order.iter().map(|&d| SecondOrderConeT(d)));
+        let Columns { ends, rows, values } = columns;
+        let matrix = CscMatrix::new(height, size, ends, rows, values);
+        let (q, b) = (vec![0.0; size], vec![0.0; height]);
+        let settings = settings(INITIAL_TOLERANCE)?;
+        let solver = DefaultSolver::new(&hessian, &q, &matrix, &b, &kinds, settings).ok()?;
+        Some(Self { solver })
+    }
+
+    /// Solves for `linear` (q) and `right` (b); `None` if Clarabel refuses the numbers.
+    ///
+    /// Whatever status Clarabel ends with: whoever calls judges the numbers.
+    pub(crate) fn solve(
+        &mut self,
+        linear: &[f64],
+        right: &[f64],
+        tolerance: f64,
+    ) -> Option<ConicSolution> {
+        self.solver.update_settings(settings(tolerance)?).ok()?;
+        self.solver.update_q(&linear.to_vec()).ok()?;
+        self.solver.update_b(&right.to_vec()).ok()?;
+        self.solver.solve();
+        let solution = &self.solver.solution;
+        let mut numbers = solution.x.iter().chain(&solution.z);
+        if numbers.any(|number| !number.is_finite()) {
+            return None;
+        }
+        Some(ConicSolution {
+            x: solution.x.clone(),
+            multipliers: solution.z.clone(),
+            iterations: solution.iterations as usize,
+        })
     }
 }
 

@@ -9,12 +9,30 @@
 //! normal reactions are held (Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333
 //! (2001) 1053–1058). Clarabel solves both on working sets.
 
+#[cfg(test)]
+mod blocks;
 mod clarabel;
+mod coulomb;
 mod elimination;
+mod equilibrium;
+mod failure;
 mod friction;
+mod generators;
+mod holdable;
+mod least_friction;
+mod limit;
+mod nearest;
 mod normal;
 mod reduced;
+mod rigid_contacts;
+mod velocity_basis;
 
+pub use coulomb::{CoulombProgram, CoulombSolution};
+pub use equilibrium::Equilibrium;
+pub use failure::{BodyMotion, Failure, FailureSentence};
 pub use friction::FrictionHalfStep;
+pub use least_friction::LeastFriction;
+pub use limit::Limit;
 pub use normal::NormalHalfStep;
 pub use reduced::{HalfStepWork, Role};
+pub use rigid_contacts::RigidContacts;

@@ -12,6 +12,7 @@
 //! (K4)  K u = f + contact and support reactions                 equilibrium of each body
 //! (K5)  u = R (u_own − Σ w_j u_j),   f_j = −w_j f_own           the two sides of a contact
 //! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
+//! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
 //! ```
 //!
 //! It shares no code with the solver: it never sees a cone program or a sweep, only
@@ -26,6 +27,7 @@ mod body_state;
 mod certificate;
 mod coulomb;
 mod exchange;
+mod impossibility;
 mod judge;
 mod natural_map;
 mod resultant;
@@ -41,6 +43,7 @@ pub use balance::{Balance, WorstNode, balance};
 pub use body_state::BodyState;
 pub use certificate::{Certificate, ContactStatus, Verdict, Worst};
 pub use exchange::{Exchange, exchange};
+pub use impossibility::{Impossibility, impossibility};
 pub use judge::Judge;
 pub use resultant::{Defect, Resultant};
 pub use sides::{global_force, relative_displacement};
