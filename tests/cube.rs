@@ -229,8 +229,8 @@ fn newton(full: &FullProblem) -> Vec<f64> {
 
 fn check_against_newton(scene: &Scene, group: &str) {
     let solution = certified(scene);
-    let full = FullProblem::new(solution.bodies()[0], group);
-    let (found, expected) = (solution.displacements()[0], newton(&full));
+    let full = FullProblem::new(&solution.bodies()[0], group);
+    let (found, expected) = (&solution.displacements()[0], newton(&full));
     assert!(difference(found, &expected) < 1e-10);
     assert!(difference(&full.forces(found), &full.forces(&expected)) < 1e-10);
 }
@@ -256,8 +256,8 @@ fn twenty_four_cells_per_side_satisfy_the_full_problem() {
     let mut scene = generated(24);
     scene.settings.tolerance = Some(1e-13);
     let solution = certified(&scene);
-    let full = FullProblem::new(solution.bodies()[0], "bottom");
-    let residual = full.relative_residual(solution.displacements()[0]);
+    let full = FullProblem::new(&solution.bodies()[0], "bottom");
+    let residual = full.relative_residual(&solution.displacements()[0]);
     assert!(residual <= 1e-12, "{residual:e}");
     // It would see a contact that is off by a millionth of the top's motion.
     let mut disturbed = solution.displacements()[0].to_vec();

@@ -70,6 +70,7 @@ impl Pressing {
             group: "bottom".into(),
             body: None,
             obstacle: Some((self.obstacle)(motion)),
+            against: None,
             friction: self.friction,
         });
         certified(&scene)

@@ -71,7 +71,7 @@ fn rim_is_noted(report: &Report) -> bool {
 fn difference(a: &Solution, b: &Solution) -> f64 {
     let largest =
         |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, |m: f64, x| m.max(x.abs()));
-    let pairs = a.displacements()[0].iter().zip(b.displacements()[0]);
+    let pairs = a.displacements()[0].iter().zip(&b.displacements()[0]);
     largest(&mut pairs.map(|(a, b)| a - b)) / largest(&mut b.displacements()[0].iter().copied())
 }
 
