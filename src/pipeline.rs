@@ -30,7 +30,7 @@ pub fn solve(scene: &Scene) -> Result<Solution, Error> {
     let outcome = dpana::solve(condensed.problem(), &settings).map_err(at_scene)?;
 
     let start = Instant::now();
-    let displacements = condensed.recover(&outcome.reaction)?;
+    let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
     let balances = balances(&bodies, &condensed, &outcome.reaction, &displacements)?;
     let departure = kkt::surface_departure(
         &bodies,

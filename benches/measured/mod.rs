@@ -68,7 +68,7 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
     let start = Instant::now();
     let problem = condensed.problem();
     let outcome = dpana::dpana::solve(problem, &mechanics.settings)?;
-    let displacements = condensed.recover(&outcome.reaction)?;
+    let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
     let mut balanced = true;
     for (index, (body, operators)) in bodies.iter().zip(condensed.bodies()).enumerate() {
         let balance = kkt::balance(&BodyState {

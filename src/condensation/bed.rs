@@ -6,6 +6,7 @@ use sprs::CsMat;
 
 use super::condensed_body::CondensedBody;
 use super::frame::Stance;
+use super::grounding::Grounding;
 use super::interface::Interface;
 use super::lattice::Lattice;
 use super::supported::SupportedBody;
@@ -32,7 +33,7 @@ pub(super) struct CondensedBed {
 impl CondensedBed {
     /// Displacement per degree of freedom under the load and a contact reaction.
     pub(super) fn recover(&self, reaction: &[f64]) -> Vec<f64> {
-        self.body.recover(&self.interface.forces(reaction))
+        self.body.recover(&self.interface.forces(reaction), &[])
     }
 }
 
@@ -116,6 +117,7 @@ impl Bed {
             stiffness: self.lattice.stiffness(),
             load: self.load.clone(),
             prescribed: self.prescribed.clone(),
+            grounding: Grounding::none(),
         };
         let mut work = CondensationWork::default();
         let (body, trailing) = supported.condense(&interface.nodes, &mut work)?;

@@ -5,9 +5,10 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::condensed_body::CondensedBody;
+use super::grounding::Grounding;
 use super::interface::Interface;
 use super::supported::{SupportedBody, Trailing};
-use super::{ContactPair, ContactProblem, ContactSurface, Operator};
+use super::{ContactPair, ContactProblem, ContactSurface, Floating, Operator};
 use crate::body::{self, Body};
 use crate::error::{Error, check_length};
 
@@ -48,8 +49,8 @@ impl Condensed {
     /// # Errors
     ///
     /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
-    /// [`ContactSurface::new`] refuse, a rigid motion that the supports leave free, a
-    /// stiffness that is not positive definite.
+    /// [`ContactSurface::new`] refuse, a stiffness that is not positive definite. A rigid
+    /// motion that the supports leave free is none: see [`ContactProblem::floating`].
     pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
         let start = Instant::now();
         let mut prescribed = Vec::with_capacity(bodies.len());
@@ -58,17 +59,10 @@ impl Condensed {
             prescribed.push(body::prescribed(body)?);
         }
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
+        let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
         let (mut condensed, mut interfaces, mut trailing) = (Vec::new(), Vec::new(), Vec::new());
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
-            if let Some(motion) = body::free_motion(body, &prescribed) {
-                let motion = motion.to_string();
-                return Err(Error::FreeMotion {
-                    body: body.name.clone(),
-                    motion,
-                });
-            }
-            let dimension = body.mesh.dimension;
             let interface = Interface::new(&surface, index, dimension, &prescribed);
             let supported = SupportedBody {
                 name: &body.name,
@@ -76,6 +70,7 @@ impl Condensed {
                 dimension,
                 stiffness: body::stiffness(body),
                 load: body::load_vector(body),
+                grounding: Grounding::new(body, &prescribed),
                 prescribed,
             };
             let (body, of_interface) = supported.condense(&interface.nodes, &mut work)?;
@@ -86,7 +81,10 @@ impl Condensed {
         let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
         let start = Instant::now();
-        let problem = join(&surface, pairs, &interfaces, trailing)?;
+        let mut problem = join(&surface, pairs, &interfaces, trailing)?;
+        if let Some(floating) = Floating::of(&surface, &condensed, dimension)? {
+            problem = problem.float(floating)?;
+        }
         work.condensation_seconds += start.elapsed().as_secs_f64();
         Ok(Self {
             surface,
@@ -124,17 +122,23 @@ impl Condensed {
     /// Displacement of every node of every body under the load and a contact reaction
     /// (C6), in metre.
     ///
-    /// `reaction` is in newton, per unknown of the contact problem; the result is in global
-    /// axes, per body and degree of freedom.
+    /// `reaction` is in newton, per unknown of the contact problem, `motion` in metre, per
+    /// free mode; the result is in global axes, per body and degree of freedom.
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if the reaction does not fit the contact problem.
-    pub fn recover(&self, reaction: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
+    /// [`Error::Length`] if reaction or motion do not fit the contact problem.
+    pub fn recover(&self, reaction: &[f64], motion: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
+        check_length("motion", self.problem.free_modes(), motion.len())?;
+        let mut motions = motion;
         let bodies = self.bodies.iter().zip(&self.interfaces);
         Ok(bodies
-            .map(|(body, interface)| body.recover(&interface.forces(reaction)))
+            .map(|(body, interface)| {
+                let (own, rest) = motions.split_at(body.free_modes.ncols());
+                motions = rest;
+                body.recover(&interface.forces(reaction), own)
+            })
             .collect())
     }
 }
@@ -246,7 +250,7 @@ mod tests {
             let (body, pair) = pressed(kind);
             let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
             let reaction = some_reaction(condensed.problem().unknowns());
-            let displacement = condensed.recover(&reaction).unwrap().remove(0);
+            let displacement = condensed.recover(&reaction, &[]).unwrap().remove(0);
             // (B2): K u − f − contact forces vanishes wherever no support acts.
             let mut rest: Vec<f64> = condensed.bodies()[0].load().iter().map(|f| -f).collect();
             for (&value, (row, column)) in condensed.bodies()[0].stiffness() {
@@ -375,7 +379,7 @@ mod tests {
             assert!((-force / contact.area / 5e7 - 1.0).abs() < 1e-10);
         }
         let displacement = condensed
-            .recover(reaction.col_as_slice(0))
+            .recover(reaction.col_as_slice(0), &[])
             .unwrap()
             .remove(0);
         for node in (0..81).step_by(9) {
@@ -398,7 +402,7 @@ mod tests {
     fn a_reaction_of_the_wrong_length_is_refused() {
         let (body, pair) = pressed(CellKind::Quad4);
         let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
-        assert!(condensed.recover(&[0.0]).is_err());
+        assert!(condensed.recover(&[0.0], &[]).is_err());
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! One forward and one backward substitution serve the free displacement and the
 //! recovered body together.
 
+use faer::Mat;
 use sprs::CsMat;
 
 use super::factor::Factor;
@@ -25,6 +26,8 @@ pub struct CondensedBody {
     pub(super) factor: Factor,
     /// `y` of (C5).
     pub(super) half_solved: Vec<f64>,
+    /// Free rigid modes, per degree of freedom.
+    pub(super) free_modes: Mat<f64>,
 }
 
 impl CondensedBody {
@@ -46,8 +49,9 @@ impl CondensedBody {
         &self.prescribed
     }
 
-    /// Displacement per degree of freedom under the load and a force per interface unknown (C6).
-    pub(super) fn recover(&self, forces: &[f64]) -> Vec<f64> {
+    /// Displacement per degree of freedom under the load and a force per interface unknown (C6),
+    /// moved by an amplitude per free mode (C3).
+    pub(super) fn recover(&self, forces: &[f64], motion: &[f64]) -> Vec<f64> {
         let ordinary = self.ordering.ordinary();
         let mut x = vec![0.0; self.ordering.unknowns()];
         x[ordinary..].copy_from_slice(forces);
@@ -62,6 +66,11 @@ impl CondensedBody {
             displacement[dof] = value;
         }
         self.frames.turn_to_global(&mut displacement);
+        for (k, amplitude) in motion.iter().enumerate() {
+            for (u, mode) in displacement.iter_mut().zip(self.free_modes.col_as_slice(k)) {
+                *u += amplitude * mode;
+            }
+        }
         for (u, prescribed) in displacement.iter_mut().zip(&self.prescribed) {
             // A held tangent is a global axis: nothing else moves the node along it.
             if let Some(value) = prescribed {

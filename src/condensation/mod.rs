@@ -16,7 +16,8 @@
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
 //! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
 //! | free displacement (C5) | `supported` |
-//! | recovered body (C6) | `condensed` |
+//! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `floating`, `grounding` |
+//! | recovered body (C6) | `condensed_body` |
 
 #[cfg(test)]
 mod bed;
@@ -25,8 +26,10 @@ mod condensed_body;
 mod elimination_tree;
 mod facing;
 mod factor;
+mod floating;
 mod frame;
 mod frames;
+mod grounding;
 mod interface;
 #[cfg(test)]
 mod lattice;
@@ -42,6 +45,7 @@ pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
 pub use condensed_body::CondensedBody;
+pub use floating::Floating;
 pub use mortar::{Mortar, MortarNode};
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;

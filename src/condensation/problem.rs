@@ -3,10 +3,11 @@
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, get_global_parallelism};
 
-use super::Operator;
+use super::{Floating, Operator};
 use crate::error::{Error, check_finite, check_length};
 
-/// Find reactions `t` and displacements `u = û + G t` (C1) that satisfy (L1)–(L3).
+/// Find reactions `t` and displacements `u = û + G t` (C1) that satisfy (L1)–(L3);
+/// between bodies that float, `u = û + G t + R α` and `Rᵀ t + e = 0` (C3).
 ///
 /// Contact `i` owns a block of `1 + tangents[i]` unknowns, normal first; blocks stand
 /// one after the other. A contact without friction has no tangent. The free
@@ -18,6 +19,7 @@ pub struct ContactProblem {
     free_displacement: Vec<f64>,
     operator: Operator,
     offsets: Vec<usize>,
+    floating: Option<Floating>,
 }
 
 impl ContactProblem {
@@ -74,7 +76,20 @@ impl ContactProblem {
             free_displacement,
             operator,
             offsets,
+            floating: None,
         })
+    }
+
+    /// The same problem between bodies that their supports do not hold (C3): the free
+    /// displacement and the operator are those of bodies grounded in any way.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if the modes are not of the problem's unknowns.
+    pub fn float(mut self, floating: Floating) -> Result<Self, Error> {
+        check_length("floating.modes", self.unknowns(), floating.modes().nrows())?;
+        self.floating = Some(floating);
+        Ok(self)
     }
 
     /// Number of contacts.
@@ -111,6 +126,18 @@ impl ContactProblem {
     #[must_use]
     pub fn free_displacement(&self) -> &[f64] {
         &self.free_displacement
+    }
+
+    /// What the supports leave free; none if they hold every body.
+    #[must_use]
+    pub fn floating(&self) -> Option<&Floating> {
+        self.floating.as_ref()
+    }
+
+    /// Number of free rigid modes over all bodies.
+    #[must_use]
+    pub fn free_modes(&self) -> usize {
+        self.floating.as_ref().map_or(0, |f| f.load().len())
     }
 
     /// The condensed operator.

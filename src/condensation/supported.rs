@@ -9,6 +9,7 @@ use super::CondensationWork;
 use super::condensed_body::CondensedBody;
 use super::factor::{Breakdown, Factor};
 use super::frames::Frames;
+use super::grounding::Grounding;
 use super::interface::InterfaceNode;
 use super::ordering::{Ordering, Role};
 use crate::error::Error;
@@ -29,6 +30,7 @@ pub(super) struct SupportedBody<'a> {
     pub(super) stiffness: CsMat<f64>,
     pub(super) load: Vec<f64>,
     pub(super) prescribed: Vec<Option<f64>>,
+    pub(super) grounding: Grounding,
 }
 
 impl SupportedBody<'_> {
@@ -46,7 +48,7 @@ impl SupportedBody<'_> {
         work.ordering_seconds += start.elapsed().as_secs_f64();
 
         let start = Instant::now();
-        let factor = Factor::new(&self.stiffness, &frames, &ordering)
+        let factor = Factor::new(&self.grounding.ground(&self.stiffness), &frames, &ordering)
             .map_err(|breakdown| self.explain(breakdown))?;
         work.factorisation_seconds += start.elapsed().as_secs_f64();
         work.numeric_seconds += factor.numeric_seconds;
@@ -73,6 +75,7 @@ impl SupportedBody<'_> {
             ordering,
             factor,
             half_solved,
+            free_modes: self.grounding.modes,
         };
         Ok((body, trailing))
     }

@@ -3,6 +3,7 @@
 use faer::{Mat, MatRef};
 
 use super::velocity_basis::{VelocityBasis, product};
+use crate::condensation::{ContactProblem, Floating};
 use crate::error::{Error, check_finite, check_length};
 
 /// Velocities below this part of the largest are none.
@@ -70,6 +71,17 @@ impl RigidContacts {
             friction,
             modes,
             basis,
+        })
+    }
+
+    /// The contacts of a problem whose bodies float; `None` if the modes have no basis.
+    #[must_use]
+    pub fn of(problem: &ContactProblem, floating: &Floating) -> Option<Self> {
+        Some(Self {
+            offsets: problem.offsets().to_vec(),
+            friction: problem.friction().to_vec(),
+            modes: floating.modes().to_owned(),
+            basis: VelocityBasis::new(floating.modes())?,
         })
     }
 

@@ -13,7 +13,8 @@
 //! ```
 //!
 //! Reactions are kept and corrected by `S δu` with small `δu`, so that the digits of
-//! the result are those of `u = û + G t`, whatever the condition of S.
+//! the result are those of `u = û + G t`, whatever the condition of S. Between bodies that
+//! float S is that of (D5), and every step restores their equilibrium.
 
 use std::ops::Range;
 
@@ -22,6 +23,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Accum, Col, ColMut, ColRef, Mat, get_global_parallelism};
 use nalgebra::Matrix3;
 
+use super::stiffness::Stiffness;
 use crate::condensation::ContactProblem;
 
 /// One contact's state and what (D4) needs of it.
@@ -39,7 +41,7 @@ enum State {
 /// Newton steps on one problem.
 pub(super) struct Finish<'a> {
     problem: &'a ContactProblem,
-    stiffness: &'a Mat<f64>,
+    stiffness: Stiffness<'a>,
 }
 
 impl<'a> Finish<'a> {
@@ -47,17 +49,23 @@ impl<'a> Finish<'a> {
     pub(super) fn new(problem: &'a ContactProblem) -> Option<Self> {
         Some(Self {
             problem,
-            stiffness: problem.operator().stiffness()?,
+            stiffness: Stiffness::new(problem)?,
         })
     }
 
-    /// The reaction after one step from a reaction and its displacement; `None` if the step is singular.
-    pub(super) fn step(&self, reaction: &[f64], displacement: &[f64]) -> Option<Vec<f64>> {
+    /// The reaction after one step from a reaction and its displacement, and the change of the
+    /// rigid motion; `None` if the step is singular.
+    pub(super) fn step(
+        &self,
+        reaction: &[f64],
+        displacement: &[f64],
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
         let laws: Vec<Law> = (0..self.problem.contacts())
             .map(|contact| self.law(contact, self.state(contact, reaction, displacement)))
             .collect();
         let mut change = self.closing(&laws, displacement);
-        let held = self.reaction_after(reaction, &change);
+        let balanced = self.stiffness.balanced(reaction);
+        let held = self.reaction_after(&balanced, &change);
         let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.unknowns.clone()).collect();
         let matrix = self.matrix(&laws, &unknowns);
         let right = right_side(&laws, &held, displacement);
@@ -65,9 +73,11 @@ impl<'a> Finish<'a> {
         for (&unknown, &value) in unknowns.iter().zip(solution.iter()) {
             change[unknown] = value;
         }
-        let mut next = self.reaction_after(reaction, &change);
+        let mut next = self.reaction_after(&balanced, &change);
         self.snap(&laws, &mut next);
-        next.iter().all(|t| t.is_finite()).then_some(next)
+        let motion = self.stiffness.motion(&change, reaction);
+        let finite = next.iter().chain(&motion).all(|x| x.is_finite());
+        finite.then_some((next, motion))
     }
 
     fn block(&self, contact: usize) -> Range<usize> {
@@ -166,7 +176,7 @@ impl<'a> Finish<'a> {
         matmul(
             ColMut::from_slice_mut(&mut next),
             Accum::Add,
-            self.stiffness,
+            self.stiffness.matrix.as_ref(),
             ColRef::from_slice(change),
             1.0,
             get_global_parallelism(),
@@ -179,7 +189,7 @@ impl<'a> Finish<'a> {
         let mut matrix = Mat::zeros(unknowns.len(), unknowns.len());
         for (j, &unknown) in unknowns.iter().enumerate() {
             let (stiffness, column) = (
-                self.stiffness.col_as_slice(unknown),
+                self.stiffness.matrix.col_as_slice(unknown),
                 matrix.col_as_slice_mut(j),
             );
             let mut rows = column.iter_mut();

@@ -1,6 +1,6 @@
 //! How a solve went: status, sweep by sweep, and the work it took.
 
-use crate::kkt::Verdict;
+use crate::kkt::{Impossibility, Verdict};
 
 /// A solved contact problem.
 #[derive(Clone, Debug)]
@@ -9,12 +9,27 @@ pub struct Outcome {
     pub status: Status,
     /// Reaction per unknown, in newton.
     pub reaction: Vec<f64>,
+    /// Rigid motion α in metre, per free mode of bodies that float; else empty.
+    pub motion: Vec<f64>,
+    /// Why nothing holds the bodies, with [`Status::NoEquilibrium`].
+    pub failure: Option<Failure>,
     /// The judge's last word: displacement, state of each contact, residuals.
     pub verdict: Verdict,
     /// One record per sweep.
     pub history: Vec<SweepRecord>,
     /// What it took.
     pub work: Work,
+}
+
+/// A rigid motion that no contact resists while the load works on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Failure {
+    /// α, per free mode; its fastest sliding (if none slides, opening) contact has unit speed.
+    pub motion: Vec<f64>,
+    /// The force that is missing at that contact, in newton.
+    pub missing: f64,
+    /// What the judge found of the motion.
+    pub proof: Impossibility,
 }
 
 /// How a solve ended.
@@ -24,15 +39,17 @@ pub enum Status {
     Certified,
     /// The best state found is returned with its residuals; it is not certified.
     NotConverged,
-    /// No admissible contact forces hold the body.
+    /// No admissible contact forces hold the bodies: see [`Outcome::failure`].
     NoEquilibrium,
 }
 
 /// One sweep.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SweepRecord {
-    /// Natural-map residual at its end.
+    /// The judge's residual at its end.
     pub residual: f64,
+    /// Interior-point iterations of the program over all Coulomb cones, for bodies that float.
+    pub coulomb_iterations: usize,
     /// Interior-point iterations of the normal half-step.
     pub normal_iterations: usize,
     /// Interior-point iterations of the friction half-step.
@@ -52,6 +69,8 @@ pub struct Work {
     pub passes: usize,
     /// Sweeps.
     pub sweeps: usize,
+    /// Programs over all Coulomb cones handed to the cone solver, for bodies that float.
+    pub coulomb_programs: usize,
     /// Normal programs handed to the cone solver.
     pub normal_programs: usize,
     /// Friction programs handed to the cone solver.
@@ -71,6 +90,8 @@ pub struct Work {
 pub struct Seconds {
     /// Prediction.
     pub predict: f64,
+    /// Programs over all Coulomb cones, and whether anything holds the bodies.
+    pub coulomb: f64,
     /// Normal half-steps.
     pub normal: f64,
     /// Friction half-steps.

@@ -12,13 +12,16 @@
 
 mod anderson;
 mod finish;
+mod float;
 mod gauss_seidel;
 mod history;
 mod prediction;
 mod settings;
+mod state;
+mod stiffness;
 mod sweep;
 
-pub use history::{Outcome, Seconds, Status, SweepRecord, Work};
+pub use history::{Failure, Outcome, Seconds, Status, SweepRecord, Work};
 pub use settings::{Settings, Variant};
 
 use crate::condensation::ContactProblem;
@@ -29,11 +32,22 @@ use sweep::Run;
 ///
 /// # Errors
 ///
-/// Settings outside their range.
+/// Settings outside their range, and a variant for study on bodies that float.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
     settings.validate()?;
     let mut run = Run::new(problem, settings);
     match settings.variant {
+        Variant::Default if let Some(floating) = problem.floating() => {
+            run.seek_equilibrium(floating);
+            while run.goes_on() {
+                run.begin_sweep();
+                run.coulomb_program(floating);
+                run.judge();
+                run.shifting=run.state.verdict.displacement.clone();if std::env::var("DBG").is_ok(){eprintln!("prog {:e} nm {:e}",run.state.residual(),run.state.verdict.certificate.natural_map);}
+                run.newton_finish();
+                run.end_sweep();
+            }
+        }
         Variant::Default => {
             let mut cold = !run.is_solved();
             if cold {

@@ -6,10 +6,13 @@ use super::anderson::Anderson;
 use super::finish::Finish;
 use super::gauss_seidel::GaussSeidel;
 use super::prediction::Roles;
-use super::{Outcome, Settings, Status, SweepRecord, Variant, Work};
+use super::state::State;
+use super::{Failure, Outcome, Settings, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
-use crate::cone::{FrictionHalfStep, HalfStepWork, NormalHalfStep};
-use crate::kkt::{ContactStatus, Judge, Verdict};
+use crate::cone::{
+    CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep,
+};
+use crate::kkt::{ContactStatus, Judge};
 
 /// The prediction stops when a pass changes the reaction by less than this, relative.
 const PREDICTED: f64 = 1e-2;
@@ -28,7 +31,7 @@ const NEWTON_STEPS: (usize, usize) = (12, 3);
 
 /// A solve in progress.
 pub(super) struct Run<'a> {
-    problem: &'a ContactProblem,
+    pub(super) problem: &'a ContactProblem,
     settings: &'a Settings,
     judge: Judge<'a>,
     normal: NormalHalfStep<'a>,
@@ -36,26 +39,32 @@ pub(super) struct Run<'a> {
     gauss_seidel: GaussSeidel<'a>,
     anderson: Anderson,
     roles: Roles,
-    /// The iterate, and the judge's word on it.
-    reaction: Vec<f64>,
-    verdict: Verdict,
+    pub(super) shifting: Vec<f64>,
+    pub(super) coulomb: Option<CoulombProgram<'a>>,
+    finish: Option<Finish<'a>>,
+    /// The iterate.
+    pub(super) state: State,
     /// The state of least residual so far.
-    best: (Vec<f64>, Verdict),
+    best: State,
     /// Normal reaction at the start of the sweep.
     before: Vec<f64>,
-    record: SweepRecord,
+    pub(super) record: SweepRecord,
     sweep_start: Instant,
     history: Vec<SweepRecord>,
-    work: Work,
-    failed: bool,
+    pub(super) work: Work,
+    pub(super) failed: bool,
+    pub(super) failure: Option<Failure>,
 }
 
 impl<'a> Run<'a> {
     /// Starts from no reaction.
     pub(super) fn new(problem: &'a ContactProblem, settings: &'a Settings) -> Self {
         let judge = Judge::new(problem);
-        let reaction = vec![0.0; problem.unknowns()];
-        let verdict = judge.measure(&reaction);
+        let state = State::new(
+            &judge,
+            vec![0.0; problem.unknowns()],
+            vec![0.0; problem.free_modes()],
+        );
         Self {
             problem,
             settings,
@@ -65,21 +74,23 @@ impl<'a> Run<'a> {
             gauss_seidel: GaussSeidel::new(problem),
             anderson: Anderson::default(),
             roles: Roles::full(problem.contacts()),
-            best: (reaction.clone(), verdict.clone()),
+            shifting: vec![], coulomb: None,
+            finish: None,
+            best: state.clone(),
+            state,
             before: Vec::new(),
-            reaction,
-            verdict,
             record: SweepRecord::default(),
             sweep_start: Instant::now(),
             history: Vec::new(),
             work: Work::default(),
             failed: false,
+            failure: None,
         }
     }
 
     /// The judge's residual of the best state is at most the tolerance.
     pub(super) fn is_solved(&self) -> bool {
-        self.best.1.certificate.natural_map <= self.settings.tolerance
+        self.best.residual() <= self.settings.tolerance
     }
 
     pub(super) fn goes_on(&self) -> bool {
@@ -91,7 +102,7 @@ impl<'a> Run<'a> {
         let start = Instant::now();
         for _ in 0..PREDICTION_PASSES {
             self.work.passes += 1;
-            if self.gauss_seidel.pass(&mut self.reaction) < PREDICTED {
+            if self.gauss_seidel.pass(&mut self.state.reaction) < PREDICTED {
                 break;
             }
         }
@@ -105,7 +116,7 @@ impl<'a> Run<'a> {
         self.sweep_start = Instant::now();
         self.before = self.normal_reaction();
         if self.settings.variant == Variant::Default {
-            self.roles = Roles::predict(self.problem, &self.reaction, &self.verdict.displacement);
+            self.roles = Roles::predict(self.problem, &self.state.reaction, &self.state.verdict.displacement);
         }
     }
 
@@ -113,7 +124,7 @@ impl<'a> Run<'a> {
     pub(super) fn normal_half_step(&mut self) {
         let start = Instant::now();
         let (tolerance, roles) = (self.cone_tolerance(), &mut self.roles.normal);
-        let work = self.normal.solve(&mut self.reaction, roles, tolerance);
+        let work = self.normal.solve(&mut self.state.reaction, roles, tolerance);
         self.record.normal_iterations = self.count(work).iterations;
         self.work.normal_programs += work.unwrap_or_default().programs;
         self.work.seconds.normal += start.elapsed().as_secs_f64();
@@ -124,7 +135,7 @@ impl<'a> Run<'a> {
         let image = self.normal_reaction();
         let next = self.anderson.next(&self.before, &image);
         for (contact, t) in next.iter().enumerate() {
-            self.reaction[self.problem.offsets()[contact]] = t.min(0.0);
+            self.state.reaction[self.problem.offsets()[contact]] = t.min(0.0);
         }
     }
 
@@ -132,7 +143,7 @@ impl<'a> Run<'a> {
     pub(super) fn friction_half_step(&mut self) {
         let start = Instant::now();
         let (tolerance, roles) = (self.cone_tolerance(), &mut self.roles.friction);
-        let work = self.friction.solve(&mut self.reaction, roles, tolerance);
+        let work = self.friction.solve(&mut self.state.reaction, roles, tolerance);
         self.record.friction_iterations = self.count(work).iterations;
         let work = work.unwrap_or_default();
         self.work.friction_programs += work.programs;
@@ -142,9 +153,9 @@ impl<'a> Run<'a> {
 
     pub(super) fn judge(&mut self) {
         let start = Instant::now();
-        self.verdict = self.judge.measure(&self.reaction);
-        if self.verdict.certificate.natural_map < self.best.1.certificate.natural_map {
-            self.best = (self.reaction.clone(), self.verdict.clone());
+        self.state.measure(&self.judge);
+        if self.state.residual() < self.best.residual() {
+            self.best = self.state.clone();
         }
         self.work.seconds.judge += start.elapsed().as_secs_f64();
     }
@@ -152,31 +163,34 @@ impl<'a> Run<'a> {
     /// Newton steps from the iterate, which moves only to a state of smaller residual.
     pub(super) fn newton_finish(&mut self) {
         let start = Instant::now();
-        let Some(finish) = Finish::new(self.problem) else {
+        let Some(finish) = self.finish.take().or_else(|| Finish::new(self.problem)) else {
             return;
         };
-        let (mut reaction, mut verdict) = (self.reaction.clone(), self.verdict.clone());
+        let mut trial = self.state.clone();
         let mut idle = 0;
         while !self.is_solved()
             && idle < NEWTON_STEPS.1
             && self.record.newton_steps < NEWTON_STEPS.0
         {
-            let Some(next) = finish.step(&reaction, &verdict.displacement) else {
+            let displacement = &trial.verdict.displacement;
+            let Some((reaction, change)) = finish.step(&trial.reaction, displacement) else {
                 break;
             };
             self.record.newton_steps += 1;
             self.work.newton_steps += 1;
-            reaction = next;
-            verdict = self.judge.measure(&reaction);
+            trial.reaction = reaction;
+            trial.motion.iter_mut().zip(change).for_each(|(a, c)| *a += c);
+            trial.measure(&self.judge);
             idle += 1;
-            if verdict.certificate.natural_map < self.verdict.certificate.natural_map {
-                (self.reaction, self.verdict) = (reaction.clone(), verdict.clone());
+            if trial.residual() < self.state.residual() {
+                self.state = trial.clone();
                 idle = 0;
             }
-            if verdict.certificate.natural_map < self.best.1.certificate.natural_map {
-                self.best = (reaction.clone(), verdict.clone());
+            if trial.residual() < self.best.residual() {
+                self.best = trial.clone();
             }
         }
+        self.finish = Some(finish);
         self.work.seconds.finish += start.elapsed().as_secs_f64();
     }
 
@@ -184,7 +198,7 @@ impl<'a> Run<'a> {
     pub(super) fn gauss_seidel_pass(&mut self) {
         let start = Instant::now();
         self.work.passes += 1;
-        let change = self.gauss_seidel.pass(&mut self.reaction);
+        let change = self.gauss_seidel.pass(&mut self.state.reaction);
         self.work.seconds.predict += start.elapsed().as_secs_f64();
         if change <= self.settings.tolerance || self.work.sweeps == self.settings.max_sweeps {
             self.judge();
@@ -193,41 +207,44 @@ impl<'a> Run<'a> {
 
     pub(super) fn end_sweep(&mut self) {
         let mut counts = [0; 3];
-        for status in &self.verdict.status {
+        for status in &self.state.verdict.status {
             counts[match status {
                 ContactStatus::Open => 0,
                 ContactStatus::Stick => 1,
                 ContactStatus::Slip => 2,
             }] += 1;
         }
-        self.record.residual = self.verdict.certificate.natural_map;
+        self.record.residual = self.state.residual();
         self.record.open_stick_slip = counts;
         self.record.seconds = self.sweep_start.elapsed().as_secs_f64();
         self.history.push(self.record);
     }
 
     pub(super) fn into_outcome(self) -> Outcome {
-        let status = if self.is_solved() {
+        let status = if self.failure.is_some() {
+            Status::NoEquilibrium
+        } else if self.is_solved() {
             Status::Certified
         } else {
             Status::NotConverged
         };
-        let (reaction, verdict) = self.best;
         Outcome {
             status,
-            reaction,
-            verdict,
+            reaction: self.best.reaction,
+            motion: self.best.motion,
+            failure: self.failure,
+            verdict: self.best.verdict,
             history: self.history,
             work: self.work,
         }
     }
 
     /// Tied to the outer residual; study sweeps are as exact as Clarabel can be.
-    fn cone_tolerance(&self) -> f64 {
+    pub(super) fn cone_tolerance(&self) -> f64 {
         let (tightest, loosest) = CONE_TOLERANCE;
         match self.settings.variant {
             Variant::Default => {
-                (INEXACT * self.verdict.certificate.natural_map).clamp(tightest, loosest)
+                (INEXACT * self.state.residual()).clamp(tightest, loosest)
             }
             _ => tightest,
         }
@@ -235,7 +252,7 @@ impl<'a> Run<'a> {
 
     fn normal_reaction(&self) -> Vec<f64> {
         let normals = &self.problem.offsets()[..self.problem.contacts()];
-        normals.iter().map(|&n| self.reaction[n]).collect()
+        normals.iter().map(|&n| self.state.reaction[n]).collect()
     }
 
     /// Books a half-step; one that the cone solver gave up ends the run.

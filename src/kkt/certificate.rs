@@ -1,5 +1,7 @@
 //! What the judge says: residuals, states of the contacts, the certificate.
 
+use super::resultant::Defect;
+
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ContactStatus {
@@ -46,8 +48,10 @@ impl Worst {
 /// Every law on the original problem, measured; infinite where a state is not finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Certificate {
-    /// Natural-map residual, relative to the reaction with a load-scale floor; the stopping test.
+    /// Natural-map residual, relative to the reaction with a load-scale floor.
     pub natural_map: f64,
+    /// Largest load on a free rigid mode that the reactions do not answer, in newton (K8).
+    pub equilibrium: Defect,
     /// Largest `u_N − g₀ > 0`, in metre (L1).
     pub penetration: Worst,
     /// Largest `t_N > 0`, in newton (L1).
@@ -64,10 +68,18 @@ pub struct Certificate {
     pub reaction_energy: f64,
 }
 
+impl Certificate {
+    /// The stopping test: the larger of natural map and equilibrium, both relative.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        self.natural_map.max(self.equilibrium.scaled)
+    }
+}
+
 /// A contact state and its certificate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// Displacement `u = û + G t` per unknown, in metre.
+    /// Displacement `u = û + G t + R α` per unknown, in metre.
     pub displacement: Vec<f64>,
     /// What each contact does.
     pub status: Vec<ContactStatus>,

@@ -3,7 +3,9 @@
 use super::bipotential::bipotential_gap;
 use super::certificate::{Certificate, ContactStatus, Verdict, Worst, ratio};
 use super::coulomb::coulomb_residual;
+use super::floating::equilibrium;
 use super::natural_map::{largest, largest_block, norm};
+use super::resultant::Defect;
 use super::scales::{Scales, compliance_product, dot};
 use super::signorini::signorini_residual;
 use super::state::{ContactState, contact_states};
@@ -24,18 +26,35 @@ impl<'a> Judge<'a> {
         Self { problem, scales }
     }
 
-    /// Measures every law for a reaction, in newton per unknown.
+    /// Measures every law for a reaction, in newton per unknown, between bodies that are held.
     ///
     /// A reaction that is not finite, or not of the problem's length, is no state of this
     /// problem: displacement and residuals are then infinite, never small.
     #[must_use]
     pub fn measure(&self, reaction: &[f64]) -> Verdict {
-        if reaction.len() != self.problem.unknowns() || largest(reaction).is_infinite() {
+        self.measure_floating(reaction, &[])
+    }
+
+    /// Measures every law for a reaction and a rigid motion, in metre per free mode (C3).
+    ///
+    /// What [`measure`](Self::measure) says of a reaction holds for the motion as well.
+    #[must_use]
+    pub fn measure_floating(&self, reaction: &[f64], motion: &[f64]) -> Verdict {
+        let fits = reaction.len() == self.problem.unknowns()
+            && motion.len() == self.problem.free_modes();
+        if !fits || largest(reaction).max(largest(motion)).is_infinite() {
             return self.no_state();
         }
         let response = compliance_product(self.problem.compliance(), reaction);
         let free = self.problem.free_displacement();
-        let displacement: Vec<f64> = free.iter().zip(&response).map(|(a, b)| a + b).collect();
+        let mut displacement: Vec<f64> = free.iter().zip(&response).map(|(a, b)| a + b).collect();
+        if let Some(floating) = self.problem.floating() {
+            for (mode, amplitude) in floating.modes().col_iter().zip(motion) {
+                for (u, r) in displacement.iter_mut().zip(mode.iter()) {
+                    *u += r * amplitude;
+                }
+            }
+        }
         let states = contact_states(self.problem, reaction, &displacement);
         let steps = self.scales.steps.iter();
         Verdict {
@@ -61,6 +80,10 @@ impl<'a> Judge<'a> {
         let (signorini, coulomb) = (signorini_residual(states), coulomb_residual(states));
         Certificate {
             natural_map: self.natural_map(reaction, states),
+            equilibrium: self
+                .problem
+                .floating()
+                .map_or_else(Defect::default, |floating| equilibrium(floating, reaction)),
             penetration: signorini.penetration.over(length),
             tension: signorini.tension.over(force),
             complementarity: signorini.complementarity.over(energy),
@@ -91,6 +114,10 @@ impl<'a> Judge<'a> {
             status: vec![ContactStatus::Open; self.problem.contacts()],
             certificate: Certificate {
                 natural_map: f64::INFINITY,
+                equilibrium: Defect {
+                    value: f64::INFINITY,
+                    scaled: f64::INFINITY,
+                },
                 penetration: worst,
                 tension: worst,
                 complementarity: worst,

@@ -13,6 +13,7 @@
 //! (K5)  u = R (u_own − Σ w_j u_j),   f_j = −w_j f_own           the two sides of a contact
 //! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
 //! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
+//! (K8)  Rᵀ t + e = 0                                            equilibrium of floating bodies
 //! ```
 //!
 //! It shares no code with the solver: it never sees a cone program or a sweep, only
@@ -27,6 +28,7 @@ mod body_state;
 mod certificate;
 mod coulomb;
 mod exchange;
+mod floating;
 mod impossibility;
 mod judge;
 mod natural_map;

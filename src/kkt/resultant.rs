@@ -45,7 +45,10 @@ impl Defect {
     /// The length of a sum of vectors, compared with `scale`.
     pub(super) fn of(parts: &[[f64; 3]], scale: f64) -> Self {
         let sum = [0, 1, 2].map(|axis| parts.iter().map(|part| part[axis]).sum());
-        let value = infinite_if_nan(length(sum));
+        Self::over(infinite_if_nan(length(sum)), scale)
+    }
+
+    pub(super) fn over(value: f64, scale: f64) -> Self {
         let scaled = ratio(value, scale);
         Self { value, scaled }
     }

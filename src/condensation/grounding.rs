@@ -1,0 +1,71 @@
+//! A body that its supports do not hold, grounded so that it can be factorised.
+//!
+//! ```text
+//! (C12)  K + Σ_d K_dd e_d e_dᵀ      d: one unknown per free mode, on which the modes are independent
+//! ```
+//!
+//! The springs carry exactly what the loads and contact forces leave of (C3): nothing in
+//! equilibrium. Their stiffness therefore changes neither reactions nor displacements,
+//! once the rigid motion `R α` is added; it is only of the size of its neighbours.
+
+use std::borrow::Cow;
+
+use faer::Mat;
+use sprs::CsMat;
+
+use crate::body::{self, Body};
+
+/// Free modes of one body over its degrees of freedom, and the springs that hold them.
+#[derive(Debug)]
+pub(super) struct Grounding {
+    /// Displacement per degree of freedom (`node · dimension + axis`) and mode.
+    pub(super) modes: Mat<f64>,
+    /// Degrees of freedom that a spring holds, one per mode.
+    springs: Vec<usize>,
+}
+
+impl Grounding {
+    /// What `prescribed` leaves free of a body; nothing at all if it is held.
+    pub(super) fn new(body: &Body, prescribed: &[Option<f64>]) -> Self {
+        let free = body::free_modes(body, prescribed);
+        let axes = body.mesh.dimension;
+        let mut modes = Mat::zeros(prescribed.len(), free.modes.len());
+        for (k, mode) in free.modes.iter().enumerate() {
+            let column = modes.col_as_slice_mut(k);
+            for &node in &free.parts[mode.part] {
+                let moved = mode.displacement(body.mesh.nodes[node]);
+                for (axis, u) in moved[..axes].iter().enumerate() {
+                    let dof = node * axes + axis;
+                    if prescribed[dof].is_none() {
+                        column[dof] = *u;
+                    }
+                }
+            }
+        }
+        let springs = body::fixing_dofs(body, prescribed, &free);
+        Self { modes, springs }
+    }
+
+    /// Of a body that is held.
+    #[cfg(test)]
+    pub(super) fn none() -> Self {
+        Self {
+            modes: Mat::new(),
+            springs: Vec::new(),
+        }
+    }
+
+    /// (C12); the stiffness itself where the supports hold the body.
+    pub(super) fn ground<'a>(&self, stiffness: &'a CsMat<f64>) -> Cow<'a, CsMat<f64>> {
+        if self.springs.is_empty() {
+            return Cow::Borrowed(stiffness);
+        }
+        let mut grounded = stiffness.clone();
+        for &dof in &self.springs {
+            if let Some(entry) = grounded.get_mut(dof, dof) {
+                *entry *= 2.0;
+            }
+        }
+        Cow::Owned(grounded)
+    }
+}

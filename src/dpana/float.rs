@@ -1,0 +1,93 @@
+//! The steps for bodies that contact alone holds.
+//!
+//! With equilibrium as rows in both half-steps the resultants of normal and friction forces
+//! would each stay what they were at the start, which is wrong on anything but a plane. So all
+//! Coulomb cones stand in one program, whose fixed point under the shift `μ ‖u_T‖` is the
+//! solution (Acary, Cadoux, Lemaréchal, Malick, Z. Angew. Math. Mech. 91 (2011) 155–175); it is
+//! infeasible exactly where no admissible equilibrium exists.
+
+use std::time::Instant;
+
+use super::Failure;
+use super::sweep::Run;
+use crate::condensation::Floating;
+use crate::cone::{CoulombProgram, Equilibrium, RigidContacts};
+use crate::kkt;
+
+/// The judge believes a failing motion that would take reactions of more than this times the load.
+const IMPOSSIBLE: f64 = 1e3;
+
+/// Tolerance of the first program, and the tightest.
+const TOLERANCE: (f64, f64) = (1e-8, 1e-13);
+
+/// From program to program: where the finish fails, it is for want of digits in the slip.
+const TIGHTER: f64 = 1e-2;
+
+impl<'a> Run<'a> {
+    /// Asks whether any admissible reactions hold the bodies; a motion that proves the
+    /// contrary, and that the judge believes, ends the run.
+    pub(super) fn seek_equilibrium(&mut self, floating: &'a Floating) {
+        let start = Instant::now();
+        let contacts = RigidContacts::of(self.problem, floating);
+        match contacts.map(|contacts| contacts.admissible(floating.load())) {
+            Some(Ok(Equilibrium::Impossible { motion, excess })) => {
+                self.failure = self.believe(floating, motion, excess);
+                self.failed = true;
+            }
+            _ => {
+                self.coulomb = CoulombProgram::new(self.problem, floating.modes());
+                self.failed = self.coulomb.is_none();
+            }
+        }
+        self.work.seconds.coulomb += start.elapsed().as_secs_f64();
+    }
+
+    /// (H8), shifted by the slip of the last state.
+    pub(super) fn coulomb_program(&mut self, floating: &Floating) {
+        let start = Instant::now();
+        let shift = self.slips();
+        let tolerance = TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
+        let tolerance = tolerance.max(TOLERANCE.1);
+        let program = self.coulomb.as_mut();
+        match program.and_then(|program| program.solve(floating.load(), &shift, tolerance)) {
+            Some(solution) => {
+                self.record.coulomb_iterations = solution.iterations;
+                self.work.cone_iterations += solution.iterations;
+                self.work.coulomb_programs += 1;
+                self.state.reaction = solution.reaction;
+                self.state.motion = solution.motion;
+            }
+            None => self.failed = true,
+        }
+        self.work.seconds.coulomb += start.elapsed().as_secs_f64();
+    }
+
+    /// `‖u_T‖` per contact; none before the first program.
+    fn slips(&self) -> Vec<f64> {
+        let blocks = self.problem.offsets().windows(2);
+        if self.work.coulomb_programs == 0 {
+            return vec![0.0; blocks.len()];
+        }
+        let u = &self.shifting;
+        blocks
+            .map(|ends| u[ends[0] + 1..ends[1]].iter().fold(0.0, |s: f64, u| s.hypot(*u)))
+            .collect()
+    }
+
+    fn believe(&self, floating: &Floating, motion: Vec<f64>, missing: f64) -> Option<Failure> {
+        let proof = kkt::impossibility(
+            self.problem.offsets(),
+            self.problem.friction(),
+            floating.modes(),
+            floating.load(),
+            &motion,
+        )
+        .ok()?;
+        let load = floating.load().iter().fold(0.0, |s: f64, e| s.hypot(*e));
+        (proof.least_reaction > IMPOSSIBLE * load).then_some(Failure {
+            motion,
+            missing,
+            proof,
+        })
+    }
+}
