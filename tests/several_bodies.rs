@@ -78,7 +78,9 @@ impl Solved {
         let pairs: Vec<_> = pairs.map(|(index, body)| on_floor(index, body)).collect();
         let condensed = Condensed::new(&bodies, &pairs).unwrap();
         let outcome = solve(condensed.problem(), &Settings::default()).unwrap();
-        let displacements = condensed.recover(&outcome.reaction, &outcome.motion).unwrap();
+        let displacements = condensed
+            .recover(&outcome.reaction, &outcome.motion)
+            .unwrap();
         Self {
             bodies,
             pairs,

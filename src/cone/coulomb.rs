@@ -1,9 +1,9 @@
 //! One program over all Coulomb cones, with the equilibrium of floating bodies as rows.
 //!
 //! ```text
-//! (H8)  min ½ t·G t + t_N·(û_N − g₀ + μ s) + t_T·û_T    s.t.  t ∈ K,  Rᵀ t + e = 0
+//! (H8)  min ½ t·G t + t_N·(û_N − g₀ − μ s) + t_T·û_T    s.t.  t ∈ K,  Rᵀ t + e = 0
 //!
-//!       u = û + G t + R α,   −(u_N − g₀ + μ s) ≥ μ ‖u_T‖
+//!       u = û + G t + R α,   g₀ − u_N + μ s ≥ μ ‖u_T‖
 //! ```
 //!
 //! Where the shift `s` is the slip `‖u_T‖` of the minimiser itself, (L1)–(L3) hold: the fixed point
@@ -95,8 +95,8 @@ impl<'a> CoulombProgram<'a> {
     ) -> Option<CoulombSolution> {
         let mut linear = self.problem.free_displacement().to_vec();
         for (contact, &n) in self.problem.offsets()[..shift.len()].iter().enumerate() {
-            linear[n] += self.problem.friction()[contact] * shift[contact]
-                - self.problem.initial_gap()[contact];
+            linear[n] -= self.problem.friction()[contact] * shift[contact]
+                + self.problem.initial_gap()[contact];
         }
         // Rigid motions in û do no work that the equilibrium rows do not fix: α takes them.
         let carried = product(self.basis.velocities.transpose(), &linear);

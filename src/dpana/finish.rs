@@ -23,8 +23,20 @@ use faer::linalg::solvers::Solve;
 use faer::{Accum, Col, ColMut, ColRef, Mat, get_global_parallelism};
 use nalgebra::Matrix3;
 
+use super::state::State as Iterate;
 use super::stiffness::Stiffness;
 use crate::condensation::ContactProblem;
+
+/// A slip is followed this far to its end: the contact is then on the side of stick.
+const BEYOND: f64 = 1.0 + 1e-6;
+
+/// What one step leads to.
+pub(super) struct Step {
+    pub(super) reaction: Vec<f64>,
+    pub(super) motion: Vec<f64>,
+    /// Part of the step after which a first slip ends, between bodies that float.
+    pub(super) first_stick: Option<f64>,
+}
 
 /// One contact's state and what (D4) needs of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,13 +65,9 @@ impl<'a> Finish<'a> {
         })
     }
 
-    /// The reaction after one step from a reaction and its displacement, and the change of the
-    /// rigid motion; `None` if the step is singular.
-    pub(super) fn step(
-        &self,
-        reaction: &[f64],
-        displacement: &[f64],
-    ) -> Option<(Vec<f64>, Vec<f64>)> {
+    /// One step from a state; `None` if the matrix of (D4) is singular.
+    pub(super) fn step(&self, state: &Iterate) -> Option<Step> {
+        let (reaction, displacement) = (&state.reaction, &state.verdict.displacement);
         let laws: Vec<Law> = (0..self.problem.contacts())
             .map(|contact| self.law(contact, self.state(contact, reaction, displacement)))
             .collect();
@@ -75,9 +83,14 @@ impl<'a> Finish<'a> {
         }
         let mut next = self.reaction_after(&balanced, &change);
         self.snap(&laws, &mut next);
-        let motion = self.stiffness.motion(&change, reaction);
+        let moved = self.stiffness.motion(&change, reaction);
+        let motion: Vec<f64> = state.motion.iter().zip(moved).map(|(a, m)| a + m).collect();
         let finite = next.iter().chain(&motion).all(|x| x.is_finite());
-        finite.then_some((next, motion))
+        finite.then(|| Step {
+            first_stick: self.first_stick(&laws, displacement, &change),
+            reaction: next,
+            motion,
+        })
     }
 
     fn block(&self, contact: usize) -> Range<usize> {
@@ -153,6 +166,26 @@ impl<'a> Finish<'a> {
             on_reaction,
             on_displacement,
         }
+    }
+
+    /// Part of `change` after which the first slip has ended, where bodies float.
+    ///
+    /// While every contact of an interface slips the bodies drift on freely, and (D4) is singular or
+    /// nearly so: the step is right in its direction only.
+    fn first_stick(&self, laws: &[Law], displacement: &[f64], change: &[f64]) -> Option<f64> {
+        self.problem.floating()?;
+        let slips = |law: &&Law| matches!(law.state, State::Slip { .. });
+        let slipping = laws.iter().filter(slips);
+        let parts = slipping.filter_map(|law| {
+            let tangents = law.block.start + 1..law.block.end;
+            let (mut square, mut turn) = (0.0, 0.0);
+            for (u, c) in displacement[tangents.clone()].iter().zip(&change[tangents]) {
+                square += u * u;
+                turn -= u * c;
+            }
+            (turn > square).then(|| BEYOND * square / turn)
+        });
+        parts.reduce(f64::min)
     }
 
     /// `δu` that closes the gap of pressed contacts and undoes the slip of sticking ones.

@@ -42,14 +42,13 @@ impl<'a> Run<'a> {
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
 
-    /// (H8), shifted by the slip of the last state.
+    /// (H8).
     pub(super) fn coulomb_program(&mut self, floating: &Floating) {
         let start = Instant::now();
-        let shift = self.slips();
         let tolerance = TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
         let tolerance = tolerance.max(TOLERANCE.1);
         let program = self.coulomb.as_mut();
-        match program.and_then(|program| program.solve(floating.load(), &shift, tolerance)) {
+        match program.and_then(|program| program.solve(floating.load(), &self.shift, tolerance)) {
             Some(solution) => {
                 self.record.coulomb_iterations = solution.iterations;
                 self.work.cone_iterations += solution.iterations;
@@ -62,16 +61,19 @@ impl<'a> Run<'a> {
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
 
-    /// `‖u_T‖` per contact; none before the first program.
-    fn slips(&self) -> Vec<f64> {
+    /// The shift of the next program: the slip that this one left, accelerated (D3).
+    pub(super) fn shift_by_slip(&mut self) {
+        let u = &self.state.verdict.displacement;
         let blocks = self.problem.offsets().windows(2);
-        if self.work.coulomb_programs == 0 {
-            return vec![0.0; blocks.len()];
-        }
-        let u = &self.shifting;
-        blocks
-            .map(|ends| u[ends[0] + 1..ends[1]].iter().fold(0.0, |s: f64, u| s.hypot(*u)))
-            .collect()
+        let slips: Vec<f64> = blocks
+            .map(|ends| {
+                u[ends[0] + 1..ends[1]]
+                    .iter()
+                    .fold(0.0, |s: f64, u| s.hypot(*u))
+            })
+            .collect();
+        self.shift = self.anderson.next(&self.shift, &slips);
+        self.shift.iter_mut().for_each(|s| *s = s.max(0.0));
     }
 
     fn believe(&self, floating: &Floating, motion: Vec<f64>, missing: f64) -> Option<Failure> {

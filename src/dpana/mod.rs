@@ -43,7 +43,7 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.begin_sweep();
                 run.coulomb_program(floating);
                 run.judge();
-                run.shifting=run.state.verdict.displacement.clone();if std::env::var("DBG").is_ok(){eprintln!("prog {:e} nm {:e}",run.state.residual(),run.state.verdict.certificate.natural_map);}
+                run.shift_by_slip();
                 run.newton_finish();
                 run.end_sweep();
             }

@@ -1,5 +1,6 @@
 //! An iterate of the outer loop.
 
+use super::finish::Step;
 use crate::kkt::{Judge, Verdict};
 
 /// Reaction, rigid motion, and the judge's word on them.
@@ -22,6 +23,19 @@ impl State {
 
     pub(super) fn measure(&mut self, judge: &Judge<'_>) {
         self.verdict = judge.measure_floating(&self.reaction, &self.motion);
+    }
+
+    /// The state after `part` of a Newton step.
+    pub(super) fn moved(&self, step: &Step, part: f64, judge: &Judge<'_>) -> Self {
+        let along = |from: &[f64], to: &[f64]| -> Vec<f64> {
+            if part == 1.0 {
+                return to.to_vec();
+            }
+            let pairs = from.iter().zip(to);
+            pairs.map(|(a, b)| a + part * (b - a)).collect()
+        };
+        let reaction = along(&self.reaction, &step.reaction);
+        Self::new(judge, reaction, along(&self.motion, &step.motion))
     }
 
     pub(super) fn residual(&self) -> f64 {

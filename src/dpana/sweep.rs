@@ -3,15 +3,13 @@
 use std::time::Instant;
 
 use super::anderson::Anderson;
-use super::finish::Finish;
+use super::finish::{Finish, Step};
 use super::gauss_seidel::GaussSeidel;
 use super::prediction::Roles;
 use super::state::State;
 use super::{Failure, Outcome, Settings, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
-use crate::cone::{
-    CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep,
-};
+use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
 
 /// The prediction stops when a pass changes the reaction by less than this, relative.
@@ -37,9 +35,10 @@ pub(super) struct Run<'a> {
     normal: NormalHalfStep<'a>,
     friction: FrictionHalfStep<'a>,
     gauss_seidel: GaussSeidel<'a>,
-    anderson: Anderson,
+    /// Shift of the last program over all Coulomb cones, in metre per contact.
+    pub(super) shift: Vec<f64>,
+    pub(super) anderson: Anderson,
     roles: Roles,
-    pub(super) shifting: Vec<f64>,
     pub(super) coulomb: Option<CoulombProgram<'a>>,
     finish: Option<Finish<'a>>,
     /// The iterate.
@@ -73,8 +72,9 @@ impl<'a> Run<'a> {
             friction: FrictionHalfStep::new(problem),
             gauss_seidel: GaussSeidel::new(problem),
             anderson: Anderson::default(),
+            shift: vec![0.0; problem.contacts()],
             roles: Roles::full(problem.contacts()),
-            shifting: vec![], coulomb: None,
+            coulomb: None,
             finish: None,
             best: state.clone(),
             state,
@@ -116,7 +116,11 @@ impl<'a> Run<'a> {
         self.sweep_start = Instant::now();
         self.before = self.normal_reaction();
         if self.settings.variant == Variant::Default {
-            self.roles = Roles::predict(self.problem, &self.state.reaction, &self.state.verdict.displacement);
+            self.roles = Roles::predict(
+                self.problem,
+                &self.state.reaction,
+                &self.state.verdict.displacement,
+            );
         }
     }
 
@@ -124,7 +128,9 @@ impl<'a> Run<'a> {
     pub(super) fn normal_half_step(&mut self) {
         let start = Instant::now();
         let (tolerance, roles) = (self.cone_tolerance(), &mut self.roles.normal);
-        let work = self.normal.solve(&mut self.state.reaction, roles, tolerance);
+        let work = self
+            .normal
+            .solve(&mut self.state.reaction, roles, tolerance);
         self.record.normal_iterations = self.count(work).iterations;
         self.work.normal_programs += work.unwrap_or_default().programs;
         self.work.seconds.normal += start.elapsed().as_secs_f64();
@@ -143,7 +149,9 @@ impl<'a> Run<'a> {
     pub(super) fn friction_half_step(&mut self) {
         let start = Instant::now();
         let (tolerance, roles) = (self.cone_tolerance(), &mut self.roles.friction);
-        let work = self.friction.solve(&mut self.state.reaction, roles, tolerance);
+        let work = self
+            .friction
+            .solve(&mut self.state.reaction, roles, tolerance);
         self.record.friction_iterations = self.count(work).iterations;
         let work = work.unwrap_or_default();
         self.work.friction_programs += work.programs;
@@ -172,15 +180,12 @@ impl<'a> Run<'a> {
             && idle < NEWTON_STEPS.1
             && self.record.newton_steps < NEWTON_STEPS.0
         {
-            let displacement = &trial.verdict.displacement;
-            let Some((reaction, change)) = finish.step(&trial.reaction, displacement) else {
+            let Some(step) = finish.step(&trial) else {
                 break;
             };
             self.record.newton_steps += 1;
             self.work.newton_steps += 1;
-            trial.reaction = reaction;
-            trial.motion.iter_mut().zip(change).for_each(|(a, c)| *a += c);
-            trial.measure(&self.judge);
+            trial = self.after(&trial, &step);
             idle += 1;
             if trial.residual() < self.state.residual() {
                 self.state = trial.clone();
@@ -192,6 +197,18 @@ impl<'a> Run<'a> {
         }
         self.finish = Some(finish);
         self.work.seconds.finish += start.elapsed().as_secs_f64();
+    }
+
+    /// The state after a Newton step; where bodies float and the whole step is no gain, after the
+    /// part of it that leads to the first slip that ends.
+    fn after(&self, trial: &State, step: &Step) -> State {
+        let whole = trial.moved(step, 1.0, &self.judge);
+        match step.first_stick {
+            Some(part) if whole.residual() >= trial.residual() => {
+                trial.moved(step, part, &self.judge)
+            }
+            _ => whole,
+        }
     }
 
     /// One pass of the baseline; the judge is asked when the pass changes little.
@@ -243,9 +260,7 @@ impl<'a> Run<'a> {
     pub(super) fn cone_tolerance(&self) -> f64 {
         let (tightest, loosest) = CONE_TOLERANCE;
         match self.settings.variant {
-            Variant::Default => {
-                (INEXACT * self.state.residual()).clamp(tightest, loosest)
-            }
+            Variant::Default => (INEXACT * self.state.residual()).clamp(tightest, loosest),
             _ => tightest,
         }
     }

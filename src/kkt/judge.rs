@@ -40,8 +40,8 @@ impl<'a> Judge<'a> {
     /// What [`measure`](Self::measure) says of a reaction holds for the motion as well.
     #[must_use]
     pub fn measure_floating(&self, reaction: &[f64], motion: &[f64]) -> Verdict {
-        let fits = reaction.len() == self.problem.unknowns()
-            && motion.len() == self.problem.free_modes();
+        let fits =
+            reaction.len() == self.problem.unknowns() && motion.len() == self.problem.free_modes();
         if !fits || largest(reaction).max(largest(motion)).is_infinite() {
             return self.no_state();
         }
