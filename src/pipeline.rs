@@ -170,6 +170,10 @@ impl Solution {
     /// None for a solution of [`solve`].
     pub fn report(&self) -> Result<Report, Error> {
         let work = self.condensed.work();
+        let failure = self.outcome.failure.iter();
+        let motions: Vec<_> = failure
+            .flat_map(|failure| self.condensed.motions(&failure.apparent))
+            .collect();
         Report::new(&ReportParts {
             title: &self.title,
             units: &self.units,
@@ -179,6 +183,7 @@ impl Solution {
             problem: self.condensed.problem(),
             outcome: &self.outcome,
             displacements: &self.displacements,
+            motions: &motions,
             balances: &self.balances,
             departure: self.departure,
             stages: &StageWork {

@@ -5,10 +5,11 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::condensed_body::CondensedBody;
+use super::floating::part_motions;
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::supported::{SupportedBody, Trailing};
-use super::{ContactPair, ContactProblem, ContactSurface, Floating, Operator};
+use super::{ContactPair, ContactProblem, ContactSurface, Floating, Operator, PartMotion};
 use crate::body::{self, Body};
 use crate::error::{Error, check_length};
 
@@ -113,6 +114,12 @@ impl Condensed {
         &self.bodies
     }
 
+    /// How the bodies' free parts move under an amplitude per free mode, in metre.
+    #[must_use]
+    pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
+        part_motions(&self.bodies, motion)
+    }
+
     /// What it took.
     #[must_use]
     pub fn work(&self) -> CondensationWork {
@@ -135,7 +142,7 @@ impl Condensed {
         let bodies = self.bodies.iter().zip(&self.interfaces);
         Ok(bodies
             .map(|(body, interface)| {
-                let (own, rest) = motions.split_at(body.free_modes.ncols());
+                let (own, rest) = motions.split_at(body.grounding.modes.ncols());
                 motions = rest;
                 body.recover(&interface.forces(reaction), own)
             })

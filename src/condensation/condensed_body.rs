@@ -8,11 +8,11 @@
 //! One forward and one backward substitution serve the free displacement and the
 //! recovered body together.
 
-use faer::Mat;
 use sprs::CsMat;
 
 use super::factor::Factor;
 use super::frames::Frames;
+use super::grounding::Grounding;
 use super::ordering::Ordering;
 
 /// A body and the factor that joins it to its interface.
@@ -26,8 +26,7 @@ pub struct CondensedBody {
     pub(super) factor: Factor,
     /// `y` of (C5).
     pub(super) half_solved: Vec<f64>,
-    /// Free rigid modes, per degree of freedom.
-    pub(super) free_modes: Mat<f64>,
+    pub(super) grounding: Grounding,
 }
 
 impl CondensedBody {
@@ -67,7 +66,10 @@ impl CondensedBody {
         }
         self.frames.turn_to_global(&mut displacement);
         for (k, amplitude) in motion.iter().enumerate() {
-            for (u, mode) in displacement.iter_mut().zip(self.free_modes.col_as_slice(k)) {
+            for (u, mode) in displacement
+                .iter_mut()
+                .zip(self.grounding.modes.col_as_slice(k))
+            {
                 *u += amplitude * mode;
             }
         }

@@ -20,6 +20,50 @@ pub struct Floating {
     load: Vec<f64>,
 }
 
+/// How one unconnected part of a body moves: `translation + rotation × (x − centre)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartMotion {
+    /// Index of the body.
+    pub body: usize,
+    /// Mean position of the part's nodes, in metre.
+    pub centre: [f64; 3],
+    /// Distance of its farthest node from there, in metre.
+    pub size: f64,
+    /// Displacement of the centre, in metre.
+    pub translation: [f64; 3],
+    /// Rotation, in radian.
+    pub rotation: [f64; 3],
+}
+
+/// The motion of every part that may move, under an amplitude per free mode.
+pub(super) fn part_motions(bodies: &[CondensedBody], motion: &[f64]) -> Vec<PartMotion> {
+    let modes = bodies.iter().enumerate().flat_map(|(index, body)| {
+        let modes = body.grounding.rigid.iter();
+        modes.map(move |(mode, size)| (index, mode, *size))
+    });
+    let mut parts: Vec<((usize, usize), PartMotion)> = Vec::new();
+    for ((body, mode, size), amplitude) in modes.zip(motion) {
+        let key = (body, mode.part);
+        if parts.last().is_none_or(|(last, _)| *last != key) {
+            let at_rest = PartMotion {
+                body,
+                centre: mode.centre,
+                size,
+                translation: [0.0; 3],
+                rotation: [0.0; 3],
+            };
+            parts.push((key, at_rest));
+        }
+        if let Some((_, part)) = parts.last_mut() {
+            for axis in 0..3 {
+                part.translation[axis] += amplitude * mode.translation[axis];
+                part.rotation[axis] += amplitude * mode.rotation[axis];
+            }
+        }
+    }
+    parts.into_iter().map(|(_, part)| part).collect()
+}
+
 impl Floating {
     /// Checks and joins the parts.
     ///
@@ -45,7 +89,7 @@ impl Floating {
         bodies: &[CondensedBody],
         dimension: usize,
     ) -> Result<Option<Self>, Error> {
-        let count: usize = bodies.iter().map(|body| body.free_modes.ncols()).sum();
+        let count: usize = bodies.iter().map(|body| body.grounding.modes.ncols()).sum();
         if count == 0 {
             return Ok(None);
         }
@@ -53,8 +97,8 @@ impl Floating {
         let mut modes = Mat::zeros(unknowns, count);
         let (mut load, mut first) = (Vec::with_capacity(count), 0);
         for (index, body) in bodies.iter().enumerate() {
-            for k in 0..body.free_modes.ncols() {
-                let of_body = body.free_modes.col_as_slice(k);
+            for k in 0..body.grounding.modes.ncols() {
+                let of_body = body.grounding.modes.col_as_slice(k);
                 let column = modes.col_as_slice_mut(first + k);
                 let mut entries = column.iter_mut();
                 for contact in &surface.nodes {
@@ -66,7 +110,7 @@ impl Floating {
                 }
                 load.push(of_body.iter().zip(&body.load).map(|(r, f)| r * f).sum());
             }
-            first += body.free_modes.ncols();
+            first += body.grounding.modes.ncols();
         }
         Self::new(modes, load).map(Some)
     }

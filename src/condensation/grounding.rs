@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use faer::Mat;
 use sprs::CsMat;
 
-use crate::body::{self, Body};
+use crate::body::{self, Body, RigidMode};
 
 /// Free modes of one body over its degrees of freedom, and the springs that hold them.
 #[derive(Debug)]
@@ -22,6 +22,8 @@ pub(super) struct Grounding {
     pub(super) modes: Mat<f64>,
     /// Degrees of freedom that a spring holds, one per mode.
     springs: Vec<usize>,
+    /// The modes in numbers, with the size of their part, in metre.
+    pub(super) rigid: Vec<(RigidMode, f64)>,
 }
 
 impl Grounding {
@@ -43,7 +45,23 @@ impl Grounding {
             }
         }
         let springs = body::fixing_dofs(body, prescribed, &free);
-        Self { modes, springs }
+        let size = |mode: &RigidMode| {
+            let nodes = free.parts[mode.part]
+                .iter()
+                .map(|&node| body.mesh.nodes[node]);
+            let distance = |x: [f64; 3]| {
+                let arm = (0..3).map(|axis| x[axis] - mode.centre[axis]);
+                arm.fold(0.0, f64::hypot)
+            };
+            nodes.map(distance).fold(0.0, f64::max)
+        };
+        let rigid = free.modes.iter().map(|mode| (mode.clone(), size(mode)));
+        let rigid = rigid.collect();
+        Self {
+            modes,
+            springs,
+            rigid,
+        }
     }
 
     /// Of a body that is held.
@@ -52,6 +70,7 @@ impl Grounding {
         Self {
             modes: Mat::new(),
             springs: Vec::new(),
+            rigid: Vec::new(),
         }
     }
 

@@ -45,7 +45,7 @@ pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
 pub use condensed_body::CondensedBody;
-pub use floating::Floating;
+pub use floating::{Floating, PartMotion};
 pub use mortar::{Mortar, MortarNode};
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;

@@ -75,7 +75,7 @@ impl SupportedBody<'_> {
             ordering,
             factor,
             half_solved,
-            free_modes: self.grounding.modes,
+            grounding: self.grounding,
         };
         Ok((body, trailing))
     }

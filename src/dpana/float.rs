@@ -28,10 +28,13 @@ impl<'a> Run<'a> {
     /// contrary, and that the judge believes, ends the run.
     pub(super) fn seek_equilibrium(&mut self, floating: &'a Floating) {
         let start = Instant::now();
-        let contacts = RigidContacts::of(self.problem, floating);
-        match contacts.map(|contacts| contacts.admissible(floating.load())) {
-            Some(Ok(Equilibrium::Impossible { motion, excess })) => {
-                self.failure = self.believe(floating, motion, excess);
+        let Some(contacts) = RigidContacts::of(self.problem, floating) else {
+            self.failed = true;
+            return;
+        };
+        match contacts.admissible(floating.load()) {
+            Ok(Equilibrium::Impossible { motion, excess }) => {
+                self.failure = self.believe(&contacts, floating, motion, excess);
                 self.failed = true;
             }
             _ => {
@@ -76,7 +79,13 @@ impl<'a> Run<'a> {
         self.shift.iter_mut().for_each(|s| *s = s.max(0.0));
     }
 
-    fn believe(&self, floating: &Floating, motion: Vec<f64>, missing: f64) -> Option<Failure> {
+    fn believe(
+        &self,
+        contacts: &RigidContacts,
+        floating: &Floating,
+        motion: Vec<f64>,
+        missing: f64,
+    ) -> Option<Failure> {
         let proof = kkt::impossibility(
             self.problem.offsets(),
             self.problem.friction(),
@@ -86,8 +95,12 @@ impl<'a> Run<'a> {
         )
         .ok()?;
         let load = floating.load().iter().fold(0.0, |s: f64, e| s.hypot(*e));
+        let apparent = contacts.failure(&motion);
         (proof.least_reaction > IMPOSSIBLE * load).then_some(Failure {
             motion,
+            apparent: apparent.motion,
+            sliding: apparent.sliding,
+            opening: apparent.opening,
             missing,
             proof,
         })

@@ -26,6 +26,12 @@ pub struct Outcome {
 pub struct Failure {
     /// α, per free mode; its fastest sliding (if none slides, opening) contact has unit speed.
     pub motion: Vec<f64>,
+    /// The same without the opening of sliding contacts (H9): how the bodies begin to move.
+    pub apparent: Vec<f64>,
+    /// Contacts that slide.
+    pub sliding: Vec<usize>,
+    /// Contacts that open.
+    pub opening: Vec<usize>,
     /// The force that is missing at that contact, in newton.
     pub missing: f64,
     /// What the judge found of the motion.

@@ -13,6 +13,9 @@ use crate::kkt;
 pub struct Certificate {
     /// Natural-map residual, relative to the reaction: the stopping test.
     pub natural_map: f64,
+    /// Largest load on a free rigid motion that contact does not answer, in newton; `null`
+    /// where supports hold every body.
+    pub equilibrium: Option<Defect>,
     /// Largest penetration, in metre.
     pub penetration: Worst,
     /// Largest normal reaction that pulls, in newton.
@@ -101,6 +104,7 @@ impl Certificate {
         let bodies = parts.bodies.iter().zip(parts.balances);
         Self {
             natural_map: measured.natural_map,
+            equilibrium: (parts.problem.free_modes() > 0).then(|| measured.equilibrium.into()),
             penetration: measured.penetration.into(),
             tension: measured.tension.into(),
             complementarity: measured.complementarity.into(),

@@ -7,7 +7,9 @@
 
 mod certificate;
 mod contacts;
+mod failure;
 mod file;
+mod motion;
 mod notes;
 mod summary;
 mod totals;
@@ -18,12 +20,14 @@ use serde::Serialize;
 
 pub use certificate::{Balance, Certificate, Defect, Resultant, Worst, WorstNode};
 pub use contacts::{Contact, ContactState};
+pub use failure::Failure;
 pub use file::replace_file;
+pub use motion::Motion;
 pub use totals::{Exchange, PairTotals, Totals};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
 use crate::body::Body;
-use crate::condensation::{ContactPair, ContactProblem, ContactSurface};
+use crate::condensation::{ContactPair, ContactProblem, ContactSurface, PartMotion};
 use crate::dpana::{self, Outcome};
 use crate::error::{Error, check_length};
 use crate::kkt;
@@ -37,6 +41,9 @@ pub struct Report {
     pub units: String,
     /// How the solve ended.
     pub status: Status,
+    /// With `no_equilibrium`: what moves, and what is missing to hold it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub failure: Option<Failure>,
     /// Size of the problem.
     pub size: Size,
     /// Every law and the balance of every body, measured.
@@ -61,7 +68,7 @@ pub enum Status {
     Certified,
     /// The best state found, with its residuals.
     NotConverged,
-    /// No admissible contact forces hold the body.
+    /// No admissible contact forces hold the bodies.
     NoEquilibrium,
 }
 
@@ -112,6 +119,8 @@ pub struct ReportParts<'a> {
     pub outcome: &'a Outcome,
     /// Recovered displacement per body and unknown (`node · dimension + axis`), in metre.
     pub displacements: &'a [Vec<f64>],
+    /// How the free parts of the bodies move where nothing holds them.
+    pub motions: &'a [PartMotion],
     /// Equilibrium of each body in that displacement.
     pub balances: &'a [kkt::Balance],
     /// How far that displacement is from the condensed problem's at the contacts.
@@ -143,6 +152,7 @@ impl Report {
             title: parts.title.to_owned(),
             units: parts.units.to_owned(),
             status: parts.outcome.status.into(),
+            failure: Failure::new(parts),
             size: Size::new(parts),
             certificate: Certificate::new(parts),
             totals: Totals::new(parts, &exchanges, &forces),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Balance, Defect, Report, Status};
+use super::{Balance, Defect, Failure, Report, Status};
 
 /// How many contact pairs the summary lists before it only counts them.
 const LISTED: usize = 8;
@@ -13,9 +13,12 @@ pub(super) fn summary(report: &Report) -> String {
     let mut text = String::new();
     // Writing into a string cannot fail.
     let _ = heading(&mut text, report)
-        .and_then(|()| totals(&mut text, report))
-        .and_then(|()| pairs(&mut text, report))
-        .and_then(|()| violations(&mut text, report))
+        .and_then(|()| match &report.failure {
+            Some(failure) => missing(&mut text, failure),
+            None => totals(&mut text, report)
+                .and_then(|()| pairs(&mut text, report))
+                .and_then(|()| violations(&mut text, report)),
+        })
         .and_then(|()| work(&mut text, report));
     for note in &report.notes {
         let _ = writeln!(text, "note            {note}");
@@ -27,7 +30,7 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
     let status = match report.status {
         Status::Certified => "certified",
         Status::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
-        Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the body",
+        Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the bodies",
     };
     let (extent, residual) = (&report.size, size(report.certificate.natural_map));
     if !report.title.is_empty() {
@@ -52,6 +55,13 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         "size            {}D, {} nodes, {} cells{bodies}",
         extent.dimension, extent.nodes, extent.cells
     )
+}
+
+/// What moves, and the force that is missing.
+fn missing(text: &mut String, failure: &Failure) -> std::fmt::Result {
+    writeln!(text, "motion          {}", failure.words)?;
+    let (sliding, opening) = (failure.sliding.len(), failure.opening.len());
+    writeln!(text, "contacts        {sliding} slide, {opening} open")
 }
 
 fn totals(text: &mut String, report: &Report) -> std::fmt::Result {

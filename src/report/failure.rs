@@ -1,0 +1,46 @@
+//! Why there is no equilibrium, as it is reported.
+
+use serde::Serialize;
+
+use super::ReportParts;
+use super::motion::{Motion, motions, sentence, significant};
+
+/// A motion that no contact resists while the loads work on it, checked by the judge.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Failure {
+    /// In words: which body moves how, and what force is missing.
+    pub words: String,
+    /// Force that is missing at the fastest sliding contact (if none slides, the fastest
+    /// opening one), in newton.
+    pub missing: f64,
+    /// How the bodies begin to move.
+    pub motions: Vec<Motion>,
+    /// Contacts that slide, as indices into `contacts`.
+    pub sliding: Vec<usize>,
+    /// Contacts that open, as indices into `contacts`.
+    pub opening: Vec<usize>,
+    /// Work of the loads on the motion that proves it, in newton times its unit.
+    pub work: f64,
+    /// Largest velocity by which a contact resists that motion, in the same unit.
+    pub resistance: f64,
+}
+
+impl Failure {
+    /// None where an equilibrium exists.
+    pub(super) fn new(parts: &ReportParts<'_>) -> Option<Self> {
+        let failure = parts.outcome.failure.as_ref()?;
+        let slides = !failure.sliding.is_empty();
+        let motions = motions(parts.bodies, parts.motions, slides);
+        let what = if slides { "friction" } else { "holding force" };
+        let missing = significant(failure.missing);
+        Some(Self {
+            words: format!("{}; missing {what}: {missing}", sentence(&motions)),
+            missing: failure.missing,
+            motions,
+            sliding: failure.sliding.clone(),
+            opening: failure.opening.clone(),
+            work: failure.proof.work,
+            resistance: failure.proof.resistance,
+        })
+    }
+}
