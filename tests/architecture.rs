@@ -37,7 +37,7 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
 
 /// Of what it imports, a module may name only these; its unit tests may name more.
 const ONLY: [(&str, &str, &[&str]); 2] = [
-    ("cone", "condensation", &["ContactProblem"]),
+    ("cone", "condensation", &["ContactProblem", "Floating"]),
     ("scene", "dpana", &["Settings", "Variant"]),
 ];
 

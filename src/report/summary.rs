@@ -32,15 +32,18 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         Status::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
         Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the bodies",
     };
-    let (extent, residual) = (&report.size, size(report.certificate.natural_map));
+    let extent = &report.size;
     if !report.title.is_empty() {
         writeln!(text, "{}", report.title)?;
     }
     writeln!(text, "status          {status}")?;
-    writeln!(
-        text,
-        "residual        {residual} (natural map, relative to the reaction)"
-    )?;
+    if report.failure.is_none() {
+        let residual = size(report.certificate.natural_map);
+        writeln!(
+            text,
+            "residual        {residual} (natural map, relative to the reaction)"
+        )?;
+    }
     let units = match report.units.as_str() {
         "" => "not named; those of the scene",
         named => named,
@@ -122,6 +125,9 @@ fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
     ] {
         let place = format!("contact {}", worst.contact);
         violation(text, name, worst.value, worst.scaled, &place)?;
+    }
+    if let Some(Defect { value, scaled }) = laws.equilibrium {
+        violation(text, "free motions", value, scaled, "")?;
     }
     balances(text, &laws.bodies)?;
     exchange(text, report)

@@ -31,6 +31,8 @@ pub struct Work {
     pub passes: usize,
     /// Sweeps of the outer loop.
     pub sweeps: usize,
+    /// Programs over all Coulomb cones, for bodies that supports do not hold.
+    pub coulomb_programs: usize,
     /// Normal half-steps solved as cone programs.
     pub normal_programs: usize,
     /// Friction half-steps solved as cone programs.
@@ -58,6 +60,8 @@ pub struct Seconds {
     pub condensation: f64,
     /// Prediction.
     pub predict: f64,
+    /// Equilibrium of floating bodies, and the programs over all Coulomb cones.
+    pub coulomb: f64,
     /// Normal half-steps.
     pub normal: f64,
     /// Friction half-steps.
@@ -75,8 +79,10 @@ pub struct Seconds {
 /// One sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Sweep {
-    /// Natural-map residual at its end.
+    /// The judge's residual at its end.
     pub residual: f64,
+    /// Interior-point iterations of the program over all Coulomb cones.
+    pub coulomb_iterations: usize,
     /// Interior-point iterations of the normal half-step.
     pub normal_iterations: usize,
     /// Interior-point iterations of the friction half-step.
@@ -100,6 +106,7 @@ impl Work {
             factorisations: stages.factorisations,
             passes: work.passes,
             sweeps: work.sweeps,
+            coulomb_programs: work.coulomb_programs,
             normal_programs: work.normal_programs,
             friction_programs: work.friction_programs,
             friction_program_contacts: work.friction_program_contacts,
@@ -119,6 +126,7 @@ impl Seconds {
             factorisation: stages.factorisation,
             condensation: stages.condensation,
             predict: outer.predict,
+            coulomb: outer.coulomb,
             normal: outer.normal,
             friction: outer.friction,
             finish: outer.finish,
@@ -131,13 +139,14 @@ impl Seconds {
     }
 
     /// The stages by name, in the order of the pipeline.
-    pub(super) fn by_stage(&self) -> [(&'static str, f64); 10] {
+    pub(super) fn by_stage(&self) -> [(&'static str, f64); 11] {
         [
             ("assembly", self.assembly),
             ("ordering", self.ordering),
             ("factorisation", self.factorisation),
             ("condensation", self.condensation),
             ("predict", self.predict),
+            ("coulomb", self.coulomb),
             ("normal", self.normal),
             ("friction", self.friction),
             ("finish", self.finish),
@@ -152,6 +161,7 @@ impl From<&SweepRecord> for Sweep {
         let [open, stick, slip] = record.open_stick_slip;
         Self {
             residual: record.residual,
+            coulomb_iterations: record.coulomb_iterations,
             normal_iterations: record.normal_iterations,
             friction_iterations: record.friction_iterations,
             newton_steps: record.newton_steps,
