@@ -531,7 +531,10 @@ fn nothing_to_solve_is_refused() {
             (
                 "/bodies",
                 json!([]),
-                &["bodies: a list of 0", "exactly one body"],
+                &[
+                    "bodies: empty; expected at least one entry",
+                    "exactly one body",
+                ],
             ),
             ("/contacts", json!([]), &["contacts: empty"]),
             (

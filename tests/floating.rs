@@ -308,6 +308,28 @@ fn a_free_block_is_squeezed_between_two_held_ones() {
 }
 
 #[test]
+fn a_body_that_is_lifted_moves_off_and_one_without_loads_stays() {
+    let block = |load: Value| {
+        json!({
+            "bodies": [{ "name": "block", "mesh": { "rectangle": { "x": [0, 1], "y": [0, 1], "cells": [3, 3] } },
+                         "model": "plane_strain", "materials": [{ "young": 1e7, "poisson": 0.3 }],
+                         "loads": [{ "body_force": load }] }],
+            "contacts": [{ "group": "bottom", "friction": 0.3,
+                           "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }]
+        })
+    };
+    let failure = no_equilibrium(&block(json!([0, 5])));
+    assert_eq!(
+        failure.words,
+        "block moves off along +y; missing holding force: 5"
+    );
+    let (solution, report) = solved(&block(json!([0, 0])));
+    assert_eq!(report.status, Status::Certified);
+    assert!(solution.displacements()[0].iter().all(|u| *u == 0.0));
+    assert_eq!(report.work.cone_iterations, 0);
+}
+
+#[test]
 fn units_and_the_size_of_the_load_change_nothing() {
     let reference = certified(&incline(2, "quad4", 0.5, 0.45, [2.0, 1.0]));
     for factor in [1e-9, 1e9] {

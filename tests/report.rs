@@ -134,6 +134,8 @@ impl Row {
             outcome: Outcome {
                 status: Status::Certified,
                 reaction,
+                motion: Vec::new(),
+                failure: None,
                 verdict,
                 history: vec![sweep],
                 work,
@@ -187,6 +189,7 @@ impl Row {
             problem: &self.problem,
             outcome: &self.outcome,
             displacements: &self.displacements,
+            motions: &[],
             balances: &self.balances,
             departure: Worst::default(),
             stages: &STAGES,
@@ -354,6 +357,7 @@ fn names_of_the_report_are_stable() {
         "normal",
         "ordering",
         "predict",
+        "coulomb",
         "recovery",
         "total",
     ];

@@ -23,22 +23,6 @@ fn square() -> Value {
     })
 }
 
-/// A unit cube of 2 × 2 × 2 cells on the plane z = 0.
-fn cube() -> Value {
-    json!({
-        "bodies": [{
-            "name": "cube",
-            "mesh": {"box": {"x": [0, 1], "y": [0, 1], "z": [0, 1], "cells": [2, 2, 2]}},
-            "materials": [{"young": 1000, "poisson": 0.3}],
-            "supports": [{"group": "top", "displacement": [0, 0, -0.01]}]
-        }],
-        "contacts": [{
-            "group": "bottom", "friction": 0.3,
-            "obstacle": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}
-        }]
-    })
-}
-
 fn with(mut scene: Value, pointer: &str, value: Value) -> Scene {
     *scene.pointer_mut(pointer).unwrap() = value;
     Scene::from_json(&scene.to_string(), "scene.json").unwrap()
@@ -59,61 +43,6 @@ fn check(scene: &Scene, words: &[&str]) {
     for word in words {
         assert!(message.contains(word), "no `{word}` in {message}");
     }
-}
-
-#[test]
-fn a_rigid_motion_that_no_support_holds_is_named() {
-    let supports = "/bodies/0/supports";
-    let held =
-        |group: &str, displacement: Value| json!([{"group": group, "displacement": displacement}]);
-    for (scene, words) in [
-        (with(square(), supports, json!([])), "translation along x"),
-        (
-            with(square(), supports, held("left", json!([0, null]))),
-            "translation along y",
-        ),
-        (
-            with(square(), supports, held("top", json!([null, 0]))),
-            "translation along x",
-        ),
-        (
-            with(
-                square(),
-                supports,
-                json!([{"at": [0.5, 0.5], "displacement": [0, 0]}]),
-            ),
-            "rotation",
-        ),
-        (
-            with(cube(), supports, held("top", json!([0, null, 0]))),
-            "translation along y",
-        ),
-        (
-            with(
-                cube(),
-                supports,
-                json!([
-                    {"at": [0, 0, 1], "displacement": [0, 0, 0]},
-                    {"at": [1, 0, 1], "displacement": [0, 0, 0]}
-                ]),
-            ),
-            "rotation",
-        ),
-    ] {
-        check(&scene, &["the supports leave a rigid motion free", words]);
-    }
-}
-
-#[test]
-fn a_body_on_an_incline_without_supports_is_said_to_float() {
-    // Contact alone would hold it, but a floating body has to wait for its own equilibrium.
-    let mut scene = square();
-    scene["bodies"][0]["supports"] = json!([]);
-    scene["bodies"][0]["loads"] = json!([{"body_force": [-3, -10]}]);
-    check(
-        &Scene::from_json(&scene.to_string(), "scene.json").unwrap(),
-        &["square: the supports leave a rigid motion free"],
-    );
 }
 
 #[test]
@@ -150,17 +79,6 @@ fn a_support_that_drags_a_contact_with_friction_is_refused() {
     // Without friction the same motion is nobody's concern.
     let smooth = with(scene, "/contacts/0/friction", json!(0));
     assert_eq!(solve(&smooth).unwrap().status(), Status::Certified);
-}
-
-#[test]
-fn a_node_that_two_contacts_claim_is_refused() {
-    let contact = square()["contacts"][0].clone();
-    let mut other = contact.clone();
-    other["obstacle"] = json!({"circle": {"center": [0, -5], "radius": 5}});
-    check(
-        &with(square(), "/contacts", json!([contact, other])),
-        &["node 0", "contacts[0]", "contacts[1]", "at most one"],
-    );
 }
 
 #[test]

@@ -198,6 +198,7 @@ mod tests {
     use crate::body::samples::{block, body, distorted, facets};
     use crate::body::{CellKind, Facet, Load, Material, Mesh, Model, Support, graded, rectangle};
     use crate::condensation::{Obstacle, Opposite};
+    use faer::linalg::solvers::Solve;
     use nalgebra::{Rotation3, Vector3};
 
     const KINDS: [CellKind; 4] = [
@@ -251,6 +252,30 @@ mod tests {
         (0..count).map(|i| ((5 * i) % 7) as f64 - 3.0).collect()
     }
 
+    /// `K u − f − contact forces` (B2) per degree of freedom, in newton.
+    fn unbalanced(
+        condensed: &Condensed,
+        body: &Body,
+        reaction: &[f64],
+        displacement: &[f64],
+    ) -> Vec<f64> {
+        let mut rest: Vec<f64> = condensed.bodies()[0].load().iter().map(|f| -f).collect();
+        for (&value, (row, column)) in condensed.bodies()[0].stiffness() {
+            rest[row] += value * displacement[column];
+        }
+        let axes = body.mesh.dimension;
+        let offsets = condensed.problem().offsets();
+        for (contact, &first) in condensed.surface().nodes.iter().zip(offsets) {
+            for row in 0..=contact.tangents {
+                for axis in 0..axes {
+                    rest[contact.node * axes + axis] -=
+                        contact.frame[row][axis] * reaction[first + row];
+                }
+            }
+        }
+        rest
+    }
+
     #[test]
     fn the_recovered_body_is_in_equilibrium_with_load_and_contact_forces() {
         for kind in KINDS {
@@ -258,21 +283,7 @@ mod tests {
             let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
             let reaction = some_reaction(condensed.problem().unknowns());
             let displacement = condensed.recover(&reaction, &[]).unwrap().remove(0);
-            // (B2): K u − f − contact forces vanishes wherever no support acts.
-            let mut rest: Vec<f64> = condensed.bodies()[0].load().iter().map(|f| -f).collect();
-            for (&value, (row, column)) in condensed.bodies()[0].stiffness() {
-                rest[row] += value * displacement[column];
-            }
-            let axes = body.mesh.dimension;
-            let offsets = condensed.problem().offsets();
-            for (contact, &first) in condensed.surface().nodes.iter().zip(offsets) {
-                for row in 0..=contact.tangents {
-                    for axis in 0..axes {
-                        rest[contact.node * axes + axis] -=
-                            contact.frame[row][axis] * reaction[first + row];
-                    }
-                }
-            }
+            let rest = unbalanced(&condensed, &body, &reaction, &displacement);
             let free = rest.iter().zip(condensed.bodies()[0].prescribed());
             let free = free.filter(|(_, u)| u.is_none()).map(|(r, _)| *r);
             assert!(largest(free) < 1e-12, "{kind:?}");
@@ -413,10 +424,29 @@ mod tests {
     }
 
     #[test]
-    fn a_body_that_nothing_holds_is_refused_with_its_motion() {
-        let (_, pair) = pressed(CellKind::Hex8);
-        let found = Condensed::new(&[block(CellKind::Hex8)], &[pair]).unwrap_err();
-        assert!(matches!(found, Error::FreeMotion { .. }), "{found}");
+    fn reactions_in_equilibrium_bend_a_floating_body_as_if_nothing_grounded_it() {
+        // (C3), (C12): K u = f + contact forces at every unknown once Rᵀ t + e = 0.
+        for kind in KINDS {
+            let (mut body, pair) = pressed(kind);
+            body.supports.clear();
+            let condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
+            let floating = condensed.problem().floating().unwrap();
+            let modes = floating.modes();
+            assert_eq!(modes.ncols(), if kind.dimension() == 2 { 3 } else { 6 });
+            // A reaction in equilibrium: t − R (RᵀR)⁻¹ (Rᵀ t + e).
+            let reaction = some_reaction(condensed.problem().unknowns());
+            let reaction = Mat::from_fn(reaction.len(), 1, |i, _| reaction[i]);
+            let load = Mat::from_fn(modes.ncols(), 1, |k, _| floating.load()[k]);
+            let rest = modes.transpose() * &reaction + load;
+            let gram = modes.transpose() * modes;
+            let reaction = reaction - modes * gram.partial_piv_lu().solve(&rest);
+
+            let motion: Vec<f64> = (0..modes.ncols()).map(|k| 0.1 * k as f64).collect();
+            let reaction = reaction.col_as_slice(0);
+            let displacement = condensed.recover(reaction, &motion).unwrap().remove(0);
+            let rest = unbalanced(&condensed, &body, reaction, &displacement);
+            assert!(largest(rest) < 1e-11, "{kind:?}");
+        }
     }
 
     #[test]

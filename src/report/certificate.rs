@@ -13,8 +13,9 @@ use crate::kkt;
 pub struct Certificate {
     /// Natural-map residual, relative to the reaction: the stopping test.
     pub natural_map: f64,
-    /// Largest load on a free rigid motion that contact does not answer, in newton; `null`
+    /// Largest load on a free rigid motion that contact does not answer, in newton; absent
     /// where supports hold every body.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub equilibrium: Option<Defect>,
     /// Largest penetration, in metre.
     pub penetration: Worst,
