@@ -157,8 +157,8 @@ proptest! {
         match contacts.limit(&fixed, &growing).unwrap() {
             Limit::Finite { factor, .. } => {
                 let margin = 1e-6 * factor.max(1.0);
-                prop_assert!(factor <= margin || held(factor - margin), "{factor}");
-                prop_assert!(!held(factor + margin), "{factor}");
+                prop_assert!(factor <= margin || held(factor - margin), "below {factor} {:?}", at(factor-margin));
+                prop_assert!(!held(factor + margin), "{factor} {:?} {:?}", at(factor+margin), at(factor-margin));
             }
             Limit::Unbounded => prop_assert!(held(1.0) && held(1e3)),
             // At a degenerate edge the two sides of the limit may not meet to eight digits.

@@ -12,19 +12,19 @@
 #[cfg(test)]
 mod blocks;
 mod clarabel;
+mod cone_projection;
 mod coulomb;
 mod elimination;
 mod equilibrium;
 mod failure;
 mod friction;
 mod generators;
-mod holdable;
 mod least_friction;
 mod limit;
-mod nearest;
 mod normal;
 mod reduced;
 mod rigid_contacts;
+mod separation;
 mod velocity_basis;
 
 pub use coulomb::{CoulombProgram, CoulombSolution};
