@@ -1,9 +1,9 @@
 //! One program over all Coulomb cones, with the equilibrium of floating bodies as rows.
 //!
 //! ```text
-//! (H8)  min ½ t·G t + t_N·(û_N − g₀ + μ s) + t_T·û_T    s.t.  t ∈ K,  Rᵀ t + e = 0
+//! (H8)  min ½ t·G t + t_N·(û_N − g₀ − μ s) + t_T·û_T    s.t.  t ∈ K,  Rᵀ t + e = 0
 //!
-//!       u = û + G t + R α,   −(u_N − g₀ + μ s) ≥ μ ‖u_T‖
+//!       u = û + G t + R α,   g₀ − u_N + μ s ≥ μ ‖u_T‖
 //! ```
 //!
 //! Where the shift `s` is the slip `‖u_T‖` of the minimiser itself, (L1)–(L3) hold: the fixed point
@@ -73,7 +73,7 @@ impl<'a> CoulombProgram<'a> {
             zero: rank,
             ..generators.cones().clone()
         };
-        let program = ConicProgram::new(Some(form.as_ref()), columns, &cones)?;
+        let program = ConicProgram::new(form.as_ref(), columns, &cones)?;
         Some(Self {
             problem,
             basis,
@@ -95,8 +95,8 @@ impl<'a> CoulombProgram<'a> {
     ) -> Option<CoulombSolution> {
         let mut linear = self.problem.free_displacement().to_vec();
         for (contact, &n) in self.problem.offsets()[..shift.len()].iter().enumerate() {
-            linear[n] += self.problem.friction()[contact] * shift[contact]
-                - self.problem.initial_gap()[contact];
+            linear[n] -= self.problem.friction()[contact] * shift[contact]
+                + self.problem.initial_gap()[contact];
         }
         // Rigid motions in û do no work that the equilibrium rows do not fix: α takes them.
         let carried = product(self.basis.velocities.transpose(), &linear);
@@ -275,6 +275,22 @@ mod tests {
             (shift[0] - C * 100.0).abs() < 1e-9 && shift[1] < 1e-9,
             "{shift:?}"
         );
+    }
+
+    #[test]
+    fn a_shift_by_its_slip_keeps_a_sliding_contact_closed() {
+        // û = (1, 2) mm: u_N = 0 takes 500 N, friction μ · 500 N = 250 N leaves 2 mm − C · 250 N = 1.5 mm of slip.
+        // Without the shift the contact would open by μ times its slip: u_N = −μ ‖u_T‖.
+        let (problem, _) = feet([0.5; 2], vec![1e-3, 2e-3, -1e-3, 0.0]);
+        let mut program = CoulombProgram::new(&problem, Mat::zeros(4, 0).as_ref()).unwrap();
+        let shifted = program.solve(&[], &[1.5e-3, 0.0], 1e-11).unwrap();
+        assert!(
+            close(&shifted.reaction, &[-500.0, -250.0, 0.0, 0.0], 1e-4),
+            "{shifted:?}"
+        );
+        // C t_N + 1 mm = −μ (2 mm + C μ t_N): t_N = −(1 + 2 μ) mm / (C (1 + μ²)).
+        let unshifted = program.solve(&[], &[0.0; 2], 1e-11).unwrap();
+        assert!((unshifted.reaction[0] + 2e-3 / (C * 1.25)).abs() < 1e-4);
     }
 
     #[test]

@@ -29,7 +29,7 @@ mod velocity_basis;
 
 pub use coulomb::{CoulombProgram, CoulombSolution};
 pub use equilibrium::Equilibrium;
-pub use failure::{BodyMotion, Failure, FailureSentence};
+pub use failure::Failure;
 pub use friction::FrictionHalfStep;
 pub use least_friction::LeastFriction;
 pub use limit::Limit;

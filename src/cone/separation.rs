@@ -28,8 +28,11 @@ use super::velocity_basis::{norm, product};
 const SOFTER: f64 = 0.02;
 const HARDER: f64 = 5.0;
 
-/// Least softness; the columns of Q and the load have unit size.
-const SOFTEST: f64 = 1e-10;
+/// Least softness: the motion of a load that is barely not held comes out as sharp as γ is large.
+const SOFTEST: f64 = 1e-16;
+
+/// A rest that differs by less is the same, for a load of unit size.
+const SAME: f64 = 1e-14;
 
 /// Newton steps per proximal step.
 const NEWTON_STEPS: usize = 40;
@@ -93,7 +96,7 @@ impl<'a> Separation<'a> {
     pub(super) fn step(&mut self) -> Vec<f64> {
         let found = self.minimise();
         let rest = self.rest_of(&found.reaction);
-        if norm(rest.iter().copied()) <= self.remainder() {
+        if norm(rest.iter().copied()) <= self.remainder() + SAME {
             (self.reaction, self.rest) = (found.reaction, rest);
             self.softness = (self.softness * SOFTER).max(SOFTEST);
         } else {
