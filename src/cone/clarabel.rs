@@ -185,18 +185,15 @@ pub(crate) struct ConicSolution {
 }
 
 impl ConicProgram {
-    /// Sets up P (dense symmetric, the upper triangle is read; `None` for zero), A and the cones.
+    /// Sets up P (dense symmetric, the upper triangle is read), A and the cones.
     pub(crate) fn new(
-        quadratic: Option<MatRef<'_, f64>>,
+        quadratic: MatRef<'_, f64>,
         columns: Columns,
         cones: &ConeSizes,
     ) -> Option<Self> {
         let size = columns.ends.len() - 1;
         let height = cones.zero + cones.nonnegative + cones.second_order.iter().sum::<usize>();
-        let hessian = match quadratic {
-            Some(form) => scaled_upper_triangle(form, &vec![1.0; size]),
-            None => CscMatrix::zeros((size, size)),
-        };
+        let hessian = scaled_upper_triangle(quadratic, &vec![1.0; size]);
         let mut kinds = Vec::with_capacity(2 + cones.second_order.len());
         if cones.zero > 0 {
             kinds.push(ZeroConeT(cones.zero));

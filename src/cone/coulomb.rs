@@ -73,7 +73,7 @@ impl<'a> CoulombProgram<'a> {
             zero: rank,
             ..generators.cones().clone()
         };
-        let program = ConicProgram::new(Some(form.as_ref()), columns, &cones)?;
+        let program = ConicProgram::new(form.as_ref(), columns, &cones)?;
         Some(Self {
             problem,
             basis,
@@ -275,6 +275,22 @@ mod tests {
             (shift[0] - C * 100.0).abs() < 1e-9 && shift[1] < 1e-9,
             "{shift:?}"
         );
+    }
+
+    #[test]
+    fn a_shift_by_its_slip_keeps_a_sliding_contact_closed() {
+        // û = (1, 2) mm: u_N = 0 takes 500 N, friction μ · 500 N = 250 N leaves 2 mm − C · 250 N = 1.5 mm of slip.
+        // Without the shift the contact would open by μ times its slip: u_N = −μ ‖u_T‖.
+        let (problem, _) = feet([0.5; 2], vec![1e-3, 2e-3, -1e-3, 0.0]);
+        let mut program = CoulombProgram::new(&problem, Mat::zeros(4, 0).as_ref()).unwrap();
+        let shifted = program.solve(&[], &[1.5e-3, 0.0], 1e-11).unwrap();
+        assert!(
+            close(&shifted.reaction, &[-500.0, -250.0, 0.0, 0.0], 1e-4),
+            "{shifted:?}"
+        );
+        // C t_N + 1 mm = −μ (2 mm + C μ t_N): t_N = −(1 + 2 μ) mm / (C (1 + μ²)).
+        let unshifted = program.solve(&[], &[0.0; 2], 1e-11).unwrap();
+        assert!((unshifted.reaction[0] + 2e-3 / (C * 1.25)).abs() < 1e-4);
     }
 
     #[test]

@@ -94,8 +94,7 @@ impl RigidContacts {
     }
 
     fn at_multiple(&self, multiple: f64, load: &[f64]) -> Equilibrium {
-        let friction: Vec<f64> = self.friction().iter().map(|mu| multiple * mu).collect();
-        self.decide(&friction, load, None)
+        self.with_friction_times(multiple).decide(load)
     }
 }
 

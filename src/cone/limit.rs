@@ -2,30 +2,27 @@
 //!
 //! ```text
 //! (H6)  max λ   s.t.  Rᵀ t + e_fixed + λ e_growing = 0,  t ∈ K,  λ ≥ 0
-//!     = min −e_fixed·α   s.t.  R α ∈ K*,  e_growing·α ≥ 1
+//!     = min −e_fixed·α / e_growing·α   s.t.  R α ∈ K*,  e_growing·α > 0
 //! ```
 //!
-//! Statical and kinematical theorem of limit analysis. Both answers are exact if the sliding contacts
-//! may open as they slide (`v_N = −μ ‖v_T‖`); under Coulomb's law, where they do not, no factor above λ
-//! is admissible, and whether a factor below it is reached depends on the elastic bodies.
+//! Statical and kinematical theorem of limit analysis. Every motion that proves a factor impossible (H5) bounds λ from
+//! above; at the bound the next motion is sought, until the load is held there: Newton's method on the distance
+//! (H5), which is a convex function of λ. The reactions at the end prove that λ is held, the last motion that more is not.
+//!
+//! Both are exact if the sliding contacts may open as they slide (`v_N = −μ ‖v_T‖`); under Coulomb's law, where they do
+//! not, no factor above λ is admissible, and whether a factor below it is reached depends on the elastic bodies.
 
-use super::equilibrium::{Equilibrium, HELD, TOLERANCE};
-use super::holdable::Holdable;
+use faer::Mat;
+
+use super::equilibrium::{Equilibrium, power};
 use super::rigid_contacts::RigidContacts;
-use super::velocity_basis::norm;
 use crate::error::Error;
 
-/// Largest difference of the two sides of (H6), relative to λ, that counts as an answer.
-const DUALITY: f64 = 1e-8;
+/// Bounds that are tried; five are usual.
+const BOUNDS: usize = 40;
 
-/// The two sides are brought this close if they can be.
-const SHARP: f64 = 1e-10;
-
-/// Proximal steps from the cone solver's answer.
-const REFINEMENTS: usize = 12;
-
-/// A factor smaller than this, loads compared as the contacts feel them, is right to its 1e-8th only.
-const SMALL: f64 = 1e-3;
+/// Distance from a bound to the factor that is tried below it, relative to that at which the loads are of one size.
+const RETREAT: f64 = 1e-10;
 
 /// How far a load can grow.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +33,7 @@ pub enum Limit {
         factor: f64,
         /// Rigid motion that begins there, at unit speed of its fastest sliding (else opening) contact.
         motion: Vec<f64>,
-        /// Admissible reactions that hold the load times λ, in newton per contact unknown.
+        /// Admissible reactions that hold the fixed load and λ times the growing one, in newton per contact unknown.
         reaction: Vec<f64>,
     },
     /// Without end: the contacts hold the growing load alone, however large.
@@ -62,96 +59,72 @@ impl RigidContacts {
     pub fn limit(&self, fixed: &[f64], growing: &[f64]) -> Result<Limit, Error> {
         self.check_load("fixed load", fixed)?;
         self.check_load("growing load", growing)?;
-        if let Some(motion) = self.idle_motion(growing) {
-            return Ok(self.balanced(fixed, growing, motion));
-        }
-        match self.decide(self.friction(), fixed, Some(growing)) {
+        match self.with_growing(growing)?.decide(fixed) {
             Equilibrium::Held { .. } => {}
-            Equilibrium::Impossible { motion, excess } => {
-                return Ok(Limit::Never { motion, excess });
-            }
             Equilibrium::Undecided { .. } => return Ok(Limit::Undecided),
+            Equilibrium::Impossible { motion, .. } => return Ok(self.never(motion, fixed)),
         }
-        Ok(match self.decide(self.friction(), growing, None) {
+        Ok(match self.decide(growing) {
             Equilibrium::Held { .. } => Limit::Unbounded,
             Equilibrium::Undecided { .. } => Limit::Undecided,
-            Equilibrium::Impossible { motion, .. } if norm(fixed.iter().copied()) == 0.0 => {
-                Limit::Finite {
-                    factor: 0.0,
-                    motion,
-                    reaction: vec![0.0; self.modes().nrows()],
+            Equilibrium::Impossible { motion, .. } => self.largest(fixed, growing, motion),
+        })
+    }
+
+    /// (H6), from a motion on which the growing load alone is not held.
+    fn largest(&self, fixed: &[f64], growing: &[f64], mut motion: Vec<f64>) -> Limit {
+        let bound = |motion: &[f64]| (-power(fixed, motion) / power(growing, motion)).max(0.0);
+        let mut factor = bound(&motion);
+        let balance = self.basis.load_size(fixed) / self.basis.load_size(growing);
+        for _ in 0..BOUNDS {
+            let sum = fixed.iter().zip(growing).map(|(f, g)| f + factor * g);
+            match self.decide(&sum.collect::<Vec<_>>()) {
+                Equilibrium::Held { reaction } => {
+                    return Limit::Finite {
+                        factor,
+                        motion,
+                        reaction,
+                    };
+                }
+                Equilibrium::Impossible { motion: next, .. } => {
+                    factor = factor.min(bound(&next));
+                    motion = next;
+                }
+                // Round-off hides whether the bound itself is held.
+                Equilibrium::Undecided { .. } => {
+                    factor = (factor - RETREAT * factor.max(balance)).max(0.0);
                 }
             }
-            Equilibrium::Impossible { .. } => {
-                self.largest(fixed, growing).unwrap_or(Limit::Undecided)
-            }
-        })
+        }
+        Limit::Undecided
     }
 
-    /// The one factor at which the two loads balance on an idle motion of the growing one.
-    fn balanced(&self, fixed: &[f64], growing: &[f64], motion: Vec<f64>) -> Limit {
-        let motion = self.at_unit_speed(motion);
-        let power = |load: &[f64]| motion.iter().zip(load).map(|(a, e)| a * e).sum::<f64>();
-        let factor = (-power(fixed) / power(growing)).max(0.0);
-        let total: Vec<f64> = fixed
-            .iter()
-            .zip(growing)
-            .map(|(f, g)| f + factor * g)
-            .collect();
-        match self.decide(self.friction(), &total, None) {
-            Equilibrium::Held { reaction } => Limit::Finite {
-                factor,
-                motion,
-                reaction,
-            },
-            Equilibrium::Impossible { motion, .. } => {
-                let excess = motion.iter().zip(fixed).map(|(a, e)| a * e).sum();
-                Limit::Never { motion, excess }
+    /// The same bodies on one contact more, smooth, whose reaction is the growing load itself: `t_N = −λ`
+    /// works on the velocity `−e_growing·α`.
+    fn with_growing(&self, growing: &[f64]) -> Result<Self, Error> {
+        let size = self.basis.load_size(growing);
+        let unit = if size > 0.0 { size } else { 1.0 };
+        let (rows, modes) = (self.modes().nrows(), self.modes());
+        let modes = Mat::from_fn(rows + 1, modes.ncols(), |i, k| {
+            if i < rows {
+                modes[(i, k)]
+            } else {
+                -growing[k] / unit
             }
-            Equilibrium::Undecided { .. } => Limit::Undecided,
-        }
+        });
+        let blocks = self.offsets().windows(2);
+        let mut tangents: Vec<usize> = blocks.map(|block| block[1] - block[0] - 1).collect();
+        tangents.push(0);
+        let mut friction = self.friction().to_vec();
+        friction.push(0.0);
+        Self::new(&tangents, friction, modes)
     }
 
-    /// (H6) for loads with a finite, attained limit; `None` if its two sides do not meet.
-    ///
-    /// The cone solver's answer is sharpened by proximal steps until the reactions, which prove that λ is
-    /// held, and the motion, which proves that more is not, agree.
-    fn largest(&self, fixed: &[f64], growing: &[f64]) -> Option<Limit> {
-        let ((held, size), (pulled, growth)) = (self.unit_load(fixed), self.unit_load(growing));
-        let holdable = Holdable::new(self, self.friction(), Some(&pulled));
-        let (mut reaction, mut motion) = holdable.limit(&held, &pulled, TOLERANCE)?;
-        let mut remainder = holdable.balance(&held, &mut reaction);
-        let (mut below, mut above) = ((0.0, None), (f64::INFINITY, None));
-        let mut length = 1.0;
-        for _ in 0..REFINEMENTS {
-            let factor = -reaction.last()?;
-            if remainder <= HELD * (1.0 + factor) && (factor > below.0 || below.1.is_none()) {
-                below = (factor, Some(reaction.clone()));
-            }
-            // For any motion: λ g·β = −e·β − t·Q β ≤ −e·β + resistance · Σ −t_N.
-            let slack = holdable.resistance(&motion) * holdable.normal_sum(&reaction);
-            let bound = (slack - holdable.work(&held, &motion)) / holdable.work(&pulled, &motion);
-            if bound < above.0 {
-                above = (bound, Some(motion.clone()));
-            }
-            if above.0 - below.0 <= SHARP * below.0 {
-                break;
-            }
-            (reaction, motion, remainder) = holdable.sharpen(&held, &reaction, &motion, length);
-            length *= 2.0;
+    fn never(&self, motion: Vec<f64>, fixed: &[f64]) -> Limit {
+        match self.impossible(motion, fixed) {
+            Equilibrium::Impossible { motion, excess } => Limit::Never { motion, excess },
+            _ => Limit::Undecided,
         }
-        let ((factor, Some(mut reaction)), (bound, Some(motion))) = (below, above) else {
-            return None;
-        };
-        if bound - factor > DUALITY * factor.max(SMALL) {
-            return None;
-        }
-        reaction.pop();
-        Some(Limit::Finite {
-            factor: factor * size / growth,
-            motion: self.at_unit_speed(self.basis.amplitudes(&motion)),
-            reaction: reaction.iter().map(|t| t * size).collect(),
-        })
     }
 }
 
@@ -168,18 +141,18 @@ mod tests {
         }
     }
 
-    /// (tan a + μ)/(1 − μ tan a) with tan a = 0.1: CGS-4.
-    const CGS4: [(f64, f64); 4] = [
-        (0.0, 0.1),
-        (0.1, 0.2 / 0.99),
-        (0.2, 0.3 / 0.98),
-        (0.3, 0.4 / 0.97),
-    ];
+    /// (tan a + μ)/(1 − μ tan a) with tan a = 0.1: NAFEMS CGS-4 has the first four.
+    fn cgs4() -> impl Iterator<Item = (f64, f64)> {
+        let friction = [0.0, 0.1, 0.2, 0.3, 1e-6, 0.5, 0.7, 1.0];
+        friction
+            .into_iter()
+            .map(|mu| (mu, (0.1 + mu) / (1.0 - 0.1 * mu)))
+    }
 
     #[test]
     fn a_block_is_pulled_up_a_slope_as_nafems_cgs_4_has_it() {
         for dimension in [2, 3] {
-            for (mu, expected) in CGS4 {
+            for (mu, expected) in cgs4() {
                 let mut blocks = Blocks::pad(dimension, mu);
                 let slope = (1.0_f64 + 0.01).sqrt();
                 for touch in &mut blocks.touches {
@@ -229,7 +202,7 @@ mod tests {
     fn a_wedge_lifts_a_guided_block_with_the_force_that_pulls_a_block_up_its_slope() {
         // Normal and friction on the block have the vertical resultant N (cos a − μ sin a) = 1 and the
         // horizontal one N (sin a + μ cos a), which is what the wedge is pushed with.
-        for (mu, expected) in CGS4 {
+        for (mu, expected) in cgs4() {
             let blocks = wedge(mu);
             let weight = blocks.load(&[(1, [0.0, -1.0, 0.0], [0.0, 2.0, 0.0])]);
             let push = blocks.load(&[(0, [-1.0, 0.0, 0.0], [0.0, 0.2, 0.0])]);
@@ -264,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_pad_slides_at_mu_times_its_weight_in_every_unit() {
-        for unit in [1e-3, 1.0, 1e3] {
+        for unit in [1e-6, 1e-3, 1.0, 1e3, 1e6] {
             for (size, pull) in [(1e-9, 1e9), (1.0, 1.0), (1e9, 1e-9)] {
                 let mut pad = Blocks::pad(3, 0.3);
                 pad.scale(unit);
@@ -330,5 +303,36 @@ mod tests {
             .limit(&load(3.0, -1.0), &load(1.0, 0.0))
             .unwrap();
         assert!(matches!(found, Limit::Never { .. }), "{found:?}");
+    }
+
+    #[test]
+    fn many_contacts_on_one_body_and_on_a_tower_of_twenty() {
+        // Block k stands on block k − 1, block 0 on the ground. A pushed block slides on what it stands on, with
+        // all that stands on it: μ times their weight.
+        let tower = |bodies: usize, per_face: usize| {
+            let mut touches = Vec::new();
+            for body in 0..bodies {
+                for i in 0..per_face {
+                    let x = 200.0 * (i as f64 / (per_face - 1) as f64 - 0.5);
+                    touches.push(Touch {
+                        point: [x, body as f64, 0.0],
+                        normal: [0.0, -1.0, 0.0],
+                        bodies: (body, body.checked_sub(1)),
+                        friction: 0.3,
+                    });
+                }
+            }
+            Blocks::new(2, bodies, touches)
+        };
+        for (bodies, per_face, pushed) in [(1, 200, 0), (20, 10, 0), (20, 10, 7), (20, 10, 19)] {
+            let blocks = tower(bodies, per_face);
+            let centre = |body: usize| [0.0, body as f64 + 0.5, 0.0];
+            let each = (0..bodies).map(|body| (body, [0.0, -2.0, 0.0], centre(body)));
+            let weight = blocks.load(&each.collect::<Vec<_>>());
+            let push = blocks.load(&[(pushed, [1.0, 0.0, 0.0], centre(pushed))]);
+            let found = factor(&blocks.contacts().limit(&weight, &push).unwrap());
+            let expected = 0.3 * 2.0 * (bodies - pushed) as f64;
+            assert!((found / expected - 1.0).abs() < 1e-8, "{pushed} {found}");
+        }
     }
 }

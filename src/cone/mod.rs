@@ -12,24 +12,24 @@
 #[cfg(test)]
 mod blocks;
 mod clarabel;
+mod cone_projection;
 mod coulomb;
 mod elimination;
 mod equilibrium;
 mod failure;
 mod friction;
 mod generators;
-mod holdable;
 mod least_friction;
 mod limit;
-mod nearest;
 mod normal;
 mod reduced;
 mod rigid_contacts;
+mod separation;
 mod velocity_basis;
 
 pub use coulomb::{CoulombProgram, CoulombSolution};
 pub use equilibrium::Equilibrium;
-pub use failure::{BodyMotion, Failure, FailureSentence};
+pub use failure::Failure;
 pub use friction::FrictionHalfStep;
 pub use least_friction::LeastFriction;
 pub use limit::Limit;

@@ -2,6 +2,7 @@
 
 use faer::{Mat, MatRef};
 
+use super::cone_projection::{CoulombCones, slip};
 use super::velocity_basis::{VelocityBasis, product};
 use crate::condensation::{ContactProblem, Floating};
 use crate::error::{Error, check_finite, check_length};
@@ -109,6 +110,23 @@ impl RigidContacts {
         self.modes.as_ref()
     }
 
+    /// The same contacts with every coefficient of friction multiplied.
+    pub(super) fn with_friction_times(&self, multiple: f64) -> Self {
+        let friction = self.friction.iter().map(|mu| multiple * mu).collect();
+        Self {
+            friction,
+            ..self.clone()
+        }
+    }
+
+    /// Coulomb's cones of the contacts.
+    pub(super) fn cones(&self) -> CoulombCones<'_> {
+        CoulombCones {
+            offsets: &self.offsets,
+            friction: &self.friction,
+        }
+    }
+
     /// Velocity `R α` of every contact unknown under a rigid motion.
     #[must_use]
     pub fn velocity(&self, motion: &[f64]) -> Vec<f64> {
@@ -157,9 +175,4 @@ impl RigidContacts {
         check_length(place, self.modes.ncols(), load.len())?;
         check_finite(place, load)
     }
-}
-
-/// `‖v_T‖` of a tangential block.
-pub(super) fn slip(tangential: &[f64]) -> f64 {
-    tangential.iter().fold(0.0, |sum, v| f64::hypot(sum, *v))
 }
