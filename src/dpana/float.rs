@@ -23,24 +23,20 @@ const TOLERANCE: (f64, f64) = (1e-8, 1e-13);
 /// From program to program: where the finish fails, it is for want of digits in the slip.
 const TIGHTER: f64 = 1e-2;
 
-impl<'a> Run<'a> {
-    /// Asks whether any admissible reactions hold the bodies; a motion that proves the
-    /// contrary, and that the judge believes, ends the run.
-    pub(super) fn seek_equilibrium(&mut self, floating: &'a Floating) {
-        let start = Instant::now();
-        let Some(contacts) = RigidContacts::of(self.problem, floating) else {
-            self.failed = true;
+impl Run<'_> {
+    /// After a first program that led nowhere, asks whether any admissible reactions hold the
+    /// bodies; a motion that proves the contrary, and that the judge believes, ends the run.
+    pub(super) fn doubt_equilibrium(&mut self, floating: &Floating) {
+        if self.is_solved() || self.work.sweeps > 1 {
             return;
-        };
-        match contacts.admissible(floating.load()) {
-            Ok(Equilibrium::Impossible { motion, excess }) => {
-                self.failure = self.believe(&contacts, floating, motion, excess);
-                self.failed = true;
-            }
-            _ => {
-                self.coulomb = CoulombProgram::new(self.problem, floating.modes());
-                self.failed = self.coulomb.is_none();
-            }
+        }
+        let start = Instant::now();
+        if let Some(contacts) = RigidContacts::of(self.problem, floating)
+            && let Ok(Equilibrium::Impossible { motion, excess }) =
+                contacts.admissible(floating.load())
+        {
+            self.failure = self.believe(&contacts, floating, motion, excess);
+            self.failed |= self.failure.is_some();
         }
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
@@ -50,8 +46,14 @@ impl<'a> Run<'a> {
         let start = Instant::now();
         let tolerance = TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
         let tolerance = tolerance.max(TOLERANCE.1);
-        let program = self.coulomb.as_mut();
-        match program.and_then(|program| program.solve(floating.load(), &self.shift, tolerance)) {
+        let mut program = self
+            .coulomb
+            .take()
+            .or_else(|| CoulombProgram::new(self.problem, floating.modes()));
+        let solve = |program: &mut CoulombProgram<'_>| {
+            program.solve(floating.load(), &self.shift, tolerance)
+        };
+        match program.as_mut().and_then(solve) {
             Some(solution) => {
                 self.record.coulomb_iterations = solution.iterations;
                 self.work.cone_iterations += solution.iterations;
@@ -61,6 +63,7 @@ impl<'a> Run<'a> {
             }
             None => self.failed = true,
         }
+        self.coulomb = program;
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
 

@@ -4,8 +4,11 @@
 //! predict    which contacts are open, pressed, stuck
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
 //! finish     semismooth Newton on the laws, kept only if the judge's residual falls
-//! stop       judge's natural-map residual ≤ tolerance
+//! stop       judge's residual ≤ tolerance
 //! ```
+//!
+//! Bodies that only contact holds have one program over all Coulomb cones in place of both
+//! half-steps, with their equilibrium as rows (H8).
 //!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
@@ -35,10 +38,16 @@ use sweep::Run;
 /// Settings outside their range, and a variant for study on bodies that float.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
     settings.validate()?;
+    if settings.variant != Variant::Default && problem.floating().is_some() {
+        return Err(Error::NotAccepted {
+            place: "settings.variant".to_owned(),
+            found: format!("{:?}", settings.variant),
+            accepted: "Default, as supports do not hold every body".to_owned(),
+        });
+    }
     let mut run = Run::new(problem, settings);
     match settings.variant {
         Variant::Default if let Some(floating) = problem.floating() => {
-            run.seek_equilibrium(floating);
             while run.goes_on() {
                 run.begin_sweep();
                 run.coulomb_program(floating);
@@ -46,6 +55,7 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.shift_by_slip();
                 run.newton_finish();
                 run.end_sweep();
+                run.doubt_equilibrium(floating);
             }
         }
         Variant::Default => {
