@@ -1,4 +1,4 @@
-//! The command line: solve, check, schema.
+//! The command line: solve, limit, check, schema.
 
 use std::error::Error;
 use std::fs;
@@ -26,6 +26,9 @@ struct CommandLine {
 enum Command {
     /// Solve a scene and print a summary.
     Solve(Solve),
+    /// Say by what factor each load can grow before nothing holds the bodies that only
+    /// contact holds, and how much friction they take.
+    Limit(Limit),
     /// Read a scene and its meshes and say what is wrong, without solving.
     Check {
         /// Scene in JSON.
@@ -48,9 +51,19 @@ struct Solve {
     vtu: Option<PathBuf>,
 }
 
+#[derive(Args)]
+struct Limit {
+    /// Scene in JSON.
+    scene: PathBuf,
+    /// Write the limits to this file, in JSON.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+}
+
 fn main() -> ExitCode {
     let done = match CommandLine::parse().command {
         Command::Solve(arguments) => solve(&arguments),
+        Command::Limit(arguments) => limit(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Schema => schema(),
     };
@@ -84,6 +97,18 @@ fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         Status::Certified => ExitCode::SUCCESS,
         Status::NotConverged | Status::NoEquilibrium => ExitCode::from(1),
     })
+}
+
+fn limit(arguments: &Limit) -> Result<ExitCode, Box<dyn Error>> {
+    if let Some(output) = &arguments.report {
+        check_output("--report", output, &arguments.scene)?;
+    }
+    let limits = dpana::limit(&Scene::from_file(&arguments.scene)?)?;
+    if let Some(path) = &arguments.report {
+        replace_file(path, &limits.to_json())?;
+    }
+    writeln!(io::stdout(), "{}", limits.summary().trim_end())?;
+    Ok(ExitCode::SUCCESS)
 }
 
 fn check(path: &Path) -> Result<ExitCode, Box<dyn Error>> {

@@ -1,5 +1,7 @@
 //! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge.
 
+mod limit;
+
 use std::path::Path;
 use std::time::Instant;
 
@@ -11,6 +13,8 @@ use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
 use crate::report::{Report, ReportParts, StageWork, replace_file};
 use crate::scene::{Mechanics, Scene};
+
+pub use limit::limit;
 
 /// Solves a scene.
 ///

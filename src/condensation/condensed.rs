@@ -5,11 +5,11 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::condensed_body::CondensedBody;
-use super::floating::part_motions;
 use super::grounding::Grounding;
 use super::interface::Interface;
+use super::rigid_bodies::{floating, part_motions};
 use super::supported::{SupportedBody, Trailing};
-use super::{ContactPair, ContactProblem, ContactSurface, Floating, Operator, PartMotion};
+use super::{ContactPair, ContactProblem, ContactSurface, Operator, PartMotion};
 use crate::body::{self, Body};
 use crate::error::{Error, check_length};
 
@@ -83,7 +83,9 @@ impl Condensed {
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
         let start = Instant::now();
         let mut problem = join(&surface, pairs, &interfaces, trailing)?;
-        if let Some(floating) = Floating::of(&surface, &condensed, dimension)? {
+        let groundings: Vec<_> = condensed.iter().map(|body| &body.grounding).collect();
+        let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
+        if let Some(floating) = floating(&surface, &groundings, &loads, dimension)? {
             problem = problem.float(floating)?;
         }
         work.condensation_seconds += start.elapsed().as_secs_f64();
@@ -117,7 +119,8 @@ impl Condensed {
     /// How the bodies' free parts move under an amplitude per free mode, in metre.
     #[must_use]
     pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
-        part_motions(&self.bodies, motion)
+        let groundings: Vec<_> = self.bodies.iter().map(|body| &body.grounding).collect();
+        part_motions(&groundings, motion)
     }
 
     /// What it took.

@@ -16,7 +16,7 @@
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
 //! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
 //! | free displacement (C5) | `supported` |
-//! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `floating`, `grounding` |
+//! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `floating`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6) | `condensed_body` |
 
 #[cfg(test)]
@@ -39,15 +39,17 @@ pub mod operator;
 mod ordering;
 mod paired;
 pub mod problem;
+mod rigid_bodies;
 mod substitution;
 mod supported;
 pub mod surface;
 
 pub use condensed::{CondensationWork, Condensed};
 pub use condensed_body::CondensedBody;
-pub use floating::{Floating, PartMotion};
+pub use floating::Floating;
 pub use mortar::{Mortar, MortarNode};
 pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;
+pub use rigid_bodies::{PartMotion, RigidBodies};
 pub use surface::{ContactNode, ContactPair, ContactSurface, Opposite, OppositeNodes};

@@ -3,7 +3,7 @@
 use super::bipotential::bipotential_gap;
 use super::certificate::{Certificate, ContactStatus, Verdict, Worst, ratio};
 use super::coulomb::coulomb_residual;
-use super::floating::equilibrium;
+use super::floating::unanswered;
 use super::natural_map::{largest, largest_block, norm};
 use super::resultant::Defect;
 use super::scales::{Scales, compliance_product, dot};
@@ -83,7 +83,9 @@ impl<'a> Judge<'a> {
             equilibrium: self
                 .problem
                 .floating()
-                .map_or_else(Defect::default, |floating| equilibrium(floating, reaction)),
+                .map_or_else(Defect::default, |floating| {
+                    unanswered(floating.modes(), floating.load(), reaction)
+                }),
             penetration: signorini.penetration.over(length),
             tension: signorini.tension.over(force),
             complementarity: signorini.complementarity.over(energy),

@@ -29,7 +29,8 @@ impl Failure {
     /// None where an equilibrium exists.
     pub(super) fn new(parts: &ReportParts<'_>) -> Option<Self> {
         let failure = parts.outcome.failure.as_ref()?;
-        let slides = !failure.sliding.is_empty();
+        // A smooth contact has no tangent that could tell: what does not open slides.
+        let slides = !failure.sliding.is_empty() || failure.opening.is_empty();
         let motions = motions(parts.bodies, parts.motions, slides);
         let what = if slides { "friction" } else { "holding force" };
         let missing = significant(failure.missing);

@@ -9,6 +9,7 @@ mod certificate;
 mod contacts;
 mod failure;
 mod file;
+mod limit;
 mod motion;
 mod notes;
 mod summary;
@@ -22,7 +23,9 @@ pub use certificate::{Balance, Certificate, Defect, Resultant, Worst, WorstNode}
 pub use contacts::{Contact, ContactState};
 pub use failure::Failure;
 pub use file::replace_file;
+pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
 pub use motion::Motion;
+pub(crate) use motion::motions;
 pub use totals::{Exchange, PairTotals, Totals};
 pub use work::{Seconds, StageWork, Sweep, Work};
 

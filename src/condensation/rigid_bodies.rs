@@ -1,0 +1,181 @@
+//! The bodies as rigid ones: what their supports leave free, and how contacts and loads feel it.
+
+use std::borrow::Borrow;
+
+use faer::Mat;
+
+use super::grounding::Grounding;
+use super::{ContactNode, ContactPair, ContactSurface, Floating};
+use crate::body::{self, Body};
+use crate::error::Error;
+
+/// Bodies, their contact surface and their free modes, without any stiffness.
+#[derive(Debug)]
+pub struct RigidBodies {
+    surface: ContactSurface,
+    groundings: Vec<Grounding>,
+    dimension: usize,
+}
+
+/// How one unconnected part of a body moves: `translation + rotation × (x − centre)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartMotion {
+    /// Index of the body.
+    pub body: usize,
+    /// Mean position of the part's nodes, in metre.
+    pub centre: [f64; 3],
+    /// Distance of its farthest node from there, in metre.
+    pub size: f64,
+    /// Displacement of the centre, in metre.
+    pub translation: [f64; 3],
+    /// Rotation, in radian.
+    pub rotation: [f64; 3],
+}
+
+impl RigidBodies {
+    /// Finds the contact surface and the free modes.
+    ///
+    /// # Errors
+    ///
+    /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
+    /// [`ContactSurface::new`] refuse.
+    pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
+        let mut prescribed = Vec::with_capacity(bodies.len());
+        for body in bodies {
+            body::check(body)?;
+            prescribed.push(body::prescribed(body)?);
+        }
+        let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
+        let held = bodies.iter().zip(&prescribed);
+        Ok(Self {
+            surface,
+            groundings: held
+                .map(|(body, held)| Grounding::new(body, held))
+                .collect(),
+            dimension: bodies.first().map_or(3, |body| body.mesh.dimension),
+        })
+    }
+
+    /// The contact surface.
+    #[must_use]
+    pub fn surface(&self) -> &ContactSurface {
+        &self.surface
+    }
+
+    /// R of (C3), per contact unknown and free mode.
+    #[must_use]
+    pub fn modes(&self) -> Mat<f64> {
+        contact_modes(&self.surface, &self.groundings, self.dimension)
+    }
+
+    /// Work on every free mode of nodal forces per body (`node · dimension + axis`), in newton.
+    #[must_use]
+    pub fn load(&self, forces: &[Vec<f64>]) -> Vec<f64> {
+        mode_loads(&self.groundings, forces)
+    }
+
+    /// How the free parts move under an amplitude per free mode, in metre.
+    #[must_use]
+    pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
+        part_motions(&self.groundings, motion)
+    }
+}
+
+/// R and e of (C3); none if every body is held.
+pub(super) fn floating(
+    surface: &ContactSurface,
+    groundings: &[&Grounding],
+    forces: &[&[f64]],
+    dimension: usize,
+) -> Result<Option<Floating>, Error> {
+    let load = mode_loads(groundings, forces);
+    if load.is_empty() {
+        return Ok(None);
+    }
+    let modes = contact_modes(surface, groundings, dimension);
+    Floating::new(modes, load).map(Some)
+}
+
+fn contact_modes(
+    surface: &ContactSurface,
+    groundings: &[impl Borrow<Grounding>],
+    dimension: usize,
+) -> Mat<f64> {
+    let unknowns = surface.nodes.iter().map(|node| 1 + node.tangents).sum();
+    let of_bodies = groundings.iter().map(Borrow::borrow).enumerate();
+    let columns: Vec<(usize, &[f64])> = of_bodies
+        .flat_map(|(index, grounding)| {
+            let modes = 0..grounding.modes.ncols();
+            modes.map(move |k| (index, grounding.modes.col_as_slice(k)))
+        })
+        .collect();
+    let mut modes = Mat::zeros(unknowns, columns.len());
+    for (k, (body, mode)) in columns.into_iter().enumerate() {
+        let mut entries = modes.col_as_slice_mut(k).iter_mut();
+        for contact in &surface.nodes {
+            let moved = moved(contact, body, mode, dimension);
+            for (row, entry) in contact.frame[..=contact.tangents].iter().zip(&mut entries) {
+                *entry = row.iter().zip(moved).map(|(d, u)| d * u).sum();
+            }
+        }
+    }
+    modes
+}
+
+/// Relative displacement of a contact, in global axes, under one mode of body `index`.
+fn moved(contact: &ContactNode, index: usize, mode: &[f64], axes: usize) -> [f64; 3] {
+    let own = (contact.body == index).then_some((contact.node, 1.0));
+    let opposite = contact.opposite.iter().filter(|side| side.body == index);
+    let opposite = opposite.flat_map(|side| side.nodes.iter().map(|&(node, w)| (node, -w)));
+    let mut moved = [0.0; 3];
+    for (node, weight) in own.into_iter().chain(opposite) {
+        for (axis, sum) in moved[..axes].iter_mut().enumerate() {
+            *sum += weight * mode[node * axes + axis];
+        }
+    }
+    moved
+}
+
+fn mode_loads(groundings: &[impl Borrow<Grounding>], forces: &[impl AsRef<[f64]>]) -> Vec<f64> {
+    let of_bodies = groundings.iter().map(Borrow::borrow).zip(forces);
+    of_bodies
+        .flat_map(|(grounding, forces)| {
+            grounding.modes.col_iter().map(move |mode| {
+                let pairs = mode.iter().zip(forces.as_ref());
+                pairs.map(|(r, f)| r * f).sum()
+            })
+        })
+        .collect()
+}
+
+pub(super) fn part_motions(
+    groundings: &[impl Borrow<Grounding>],
+    motion: &[f64],
+) -> Vec<PartMotion> {
+    let of_bodies = groundings.iter().map(Borrow::borrow).enumerate();
+    let modes = of_bodies.flat_map(|(body, grounding)| {
+        let modes = grounding.rigid.iter();
+        modes.map(move |(mode, size)| (body, mode, *size))
+    });
+    let mut parts: Vec<((usize, usize), PartMotion)> = Vec::new();
+    for ((body, mode, size), amplitude) in modes.zip(motion) {
+        let key = (body, mode.part);
+        if parts.last().is_none_or(|(last, _)| *last != key) {
+            let at_rest = PartMotion {
+                body,
+                centre: mode.centre,
+                size,
+                translation: [0.0; 3],
+                rotation: [0.0; 3],
+            };
+            parts.push((key, at_rest));
+        }
+        if let Some((_, part)) = parts.last_mut() {
+            for axis in 0..3 {
+                part.translation[axis] += amplitude * mode.translation[axis];
+                part.rotation[axis] += amplitude * mode.rotation[axis];
+            }
+        }
+    }
+    parts.into_iter().map(|(_, part)| part).collect()
+}
