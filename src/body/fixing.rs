@@ -6,39 +6,54 @@
 use super::Body;
 use super::rigid_modes::FreeModes;
 
+/// A component that moves at least this part of what the best one moves serves as well.
+const SERVES: f64 = 0.1;
+
 /// Unknowns (`dimension · node + axis`), one per mode, on which the modes are far from dependent.
 ///
 /// The component that moves most is taken first; each next one is that on which most of the remaining
 /// motions is left (QR with pivoting on the components), which finds nodes far apart. Prescribed
-/// components are never chosen.
+/// components are never chosen, and components of the nodes to `avoid` (such as those on the contact surface, any
+/// order) only where the others of their part hardly move.
 #[must_use]
-pub fn fixing_dofs(body: &Body, prescribed: &[Option<f64>], free: &FreeModes) -> Vec<usize> {
+pub fn fixing_dofs(
+    body: &Body,
+    prescribed: &[Option<f64>],
+    free: &FreeModes,
+    avoid: &[usize],
+) -> Vec<usize> {
+    let mut avoided = vec![false; body.mesh.nodes.len()];
+    for &node in avoid {
+        if let Some(avoided) = avoided.get_mut(node) {
+            *avoided = true;
+        }
+    }
     let mut chosen = Vec::with_capacity(free.modes.len());
     for (part, nodes) in free.parts.iter().enumerate() {
         let modes: Vec<_> = free.modes.iter().filter(|mode| mode.part == part).collect();
         let mut rows = rows(body, prescribed, nodes, &modes);
         for _ in 0..modes.len() {
-            let size = |row: &Row| row.motion.iter().map(|x| x * x).sum::<f64>();
-            let largest = rows.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
-            let Some(pivot) = largest.filter(|row| size(row) > 0.0).cloned() else {
+            let Some(pivot) = pivot(&rows, &avoided, body.mesh.dimension).cloned() else {
                 break;
             };
             chosen.push(pivot.unknown);
-            let square = size(&pivot);
             for row in &mut rows {
-                let dot: f64 = row
-                    .motion
-                    .iter()
-                    .zip(&pivot.motion)
-                    .map(|(a, b)| a * b)
-                    .sum();
-                for (entry, held) in row.motion.iter_mut().zip(&pivot.motion) {
-                    *entry -= dot / square * held;
-                }
+                row.orthogonalise(&pivot);
             }
         }
     }
     chosen
+}
+
+/// The row that moves most, one of the nodes not to avoid if it serves.
+fn pivot<'a>(rows: &'a [Row], avoided: &[bool], axes: usize) -> Option<&'a Row> {
+    let largest = |rows: &mut dyn Iterator<Item = &'a Row>| {
+        rows.max_by(|a, b| a.square().total_cmp(&b.square()))
+    };
+    let best = largest(&mut rows.iter()).filter(|row| row.square() > 0.0)?;
+    let preferred = largest(&mut rows.iter().filter(|row| !avoided[row.unknown / axes]));
+    let serves = |row: &&Row| row.square() >= SERVES * SERVES * best.square();
+    preferred.filter(serves).or(Some(best))
 }
 
 /// What the modes do to one unknown.
@@ -46,6 +61,20 @@ pub fn fixing_dofs(body: &Body, prescribed: &[Option<f64>], free: &FreeModes) ->
 struct Row {
     unknown: usize,
     motion: [f64; 6],
+}
+
+impl Row {
+    fn square(&self) -> f64 {
+        self.motion.iter().map(|x| x * x).sum()
+    }
+
+    fn orthogonalise(&mut self, held: &Row) {
+        let products = self.motion.iter().zip(&held.motion).map(|(a, b)| a * b);
+        let share = products.sum::<f64>() / held.square();
+        for (entry, held) in self.motion.iter_mut().zip(&held.motion) {
+            *entry -= share * held;
+        }
+    }
 }
 
 fn rows(
@@ -92,10 +121,25 @@ mod tests {
     ];
 
     fn pins(body: &Body) -> (FreeModes, Vec<usize>) {
+        pins_away_from(body, &[])
+    }
+
+    fn pins_away_from(body: &Body, avoid: &[usize]) -> (FreeModes, Vec<usize>) {
         let prescribed = prescribed(body).unwrap();
         let free = free_modes(body, &prescribed);
-        let chosen = fixing_dofs(body, &prescribed, &free);
+        let chosen = fixing_dofs(body, &prescribed, &free, avoid);
         (free, chosen)
+    }
+
+    /// Least singular value of the modes, which are of order one, at the chosen components.
+    fn independence(body: &Body, free: &FreeModes, chosen: &[usize]) -> f64 {
+        let axes = body.mesh.dimension;
+        assert_eq!(chosen.len(), free.modes.len());
+        let matrix = Mat::from_fn(chosen.len(), chosen.len(), |row, mode| {
+            let x = body.mesh.nodes[chosen[row] / axes];
+            free.modes[mode].displacement(x)[chosen[row] % axes]
+        });
+        *matrix.singular_values().unwrap().last().unwrap()
     }
 
     #[test]
@@ -103,15 +147,31 @@ mod tests {
         for kind in KINDS {
             let body = block(kind);
             let (free, chosen) = pins(&body);
+            let found = independence(&body, &free, &chosen);
+            assert!(found > 0.3, "{found}");
+        }
+    }
+
+    #[test]
+    fn nodes_to_avoid_are_pinned_only_where_the_others_hardly_move() {
+        for kind in KINDS {
+            let body = block(kind);
             let axes = body.mesh.dimension;
-            assert_eq!(chosen.len(), free.modes.len());
-            let matrix = Mat::from_fn(chosen.len(), chosen.len(), |row, mode| {
-                let x = body.mesh.nodes[chosen[row] / axes];
-                free.modes[mode].displacement(x)[chosen[row] % axes]
-            });
-            // Modes are of order one: so is every singular value.
-            let values = matrix.singular_values().unwrap();
-            assert!(values.last().unwrap() > &0.3, "{values:?}");
+            let (count, plain) = (body.mesh.nodes.len(), pins(&body).1);
+            let avoid: Vec<usize> = plain.iter().map(|dof| dof / axes).collect();
+            let (free, chosen) = pins_away_from(&body, &avoid);
+            assert!(!chosen.iter().any(|dof| avoid.contains(&(dof / axes))));
+            let found = independence(&body, &free, &chosen);
+            assert!(found > 0.1, "{found}");
+            // All of them: as without. All but one: that node alone cannot hold the turns.
+            let all: Vec<usize> = (0..count).collect();
+            assert_eq!(pins_away_from(&body, &all).1, plain);
+            let (free, chosen) = pins_away_from(&body, &all[1..]);
+            let found = independence(&body, &free, &chosen);
+            assert!(
+                found > 0.1 && chosen.iter().any(|&dof| dof < axes),
+                "{found}"
+            );
         }
     }
 

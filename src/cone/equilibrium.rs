@@ -12,8 +12,8 @@ use crate::error::Error;
 const HELD: f64 = 1e-11;
 const HELD_BY_LARGE: f64 = 1e-14;
 
-/// A load on idle motions below this part of it is round-off.
-const IDLE: f64 = 1e-9;
+/// A load on idle motions below this part of it, or a velocity below this part of an amplitude, is round-off.
+const IDLE: f64 = 1e-11;
 
 /// Round-off in the velocities of a motion of unit size: less resistance is none.
 const RESTING: f64 = 4e-16;

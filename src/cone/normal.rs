@@ -1,9 +1,9 @@
 //! The normal half-step (H1): normal reactions with friction held.
 
-use super::reduced::{Cones, HalfStepWork, ReducedProgram, Role};
+use super::reduced::{Half, HalfStepWork, Role, WorkingSet};
 use crate::condensation::ContactProblem;
 
-/// (H1) for one problem; a working set that stays the same is set up once.
+/// (H1) for one problem.
 ///
 /// ```text
 /// min ½ s_N·G_NN s_N + s_N·(û_N + G_NT t_T − g₀)    s.t.  s_N ≤ 0
@@ -11,7 +11,7 @@ use crate::condensation::ContactProblem;
 /// ```
 pub struct NormalHalfStep<'a> {
     problem: &'a ContactProblem,
-    held: Option<(Vec<Role>, ReducedProgram)>,
+    set: WorkingSet<'a>,
 }
 
 impl<'a> NormalHalfStep<'a> {
@@ -20,7 +20,7 @@ impl<'a> NormalHalfStep<'a> {
     pub fn new(problem: &'a ContactProblem) -> Self {
         Self {
             problem,
-            held: None,
+            set: WorkingSet::new(problem, Half::Normal),
         }
     }
 
@@ -47,7 +47,9 @@ impl<'a> NormalHalfStep<'a> {
             .fold(0.0_f64, |largest, &n| largest.max(linear[n].abs()));
         let mut work = HalfStepWork::default();
         loop {
-            let x = self.minimise(&linear, roles, tolerance, &mut work)?;
+            let x = self
+                .set
+                .minimise(&linear, &[], roles, tolerance, &mut work)?;
             for &n in normals {
                 reaction[n] = x[n];
             }
@@ -73,52 +75,6 @@ impl<'a> NormalHalfStep<'a> {
             reaction[n] = reaction[n].min(0.0);
         }
         Some(work)
-    }
-
-    fn minimise(
-        &mut self,
-        linear: &[f64],
-        roles: &mut [Role],
-        tolerance: f64,
-        work: &mut HalfStepWork,
-    ) -> Option<Vec<f64>> {
-        if self.held.as_ref().is_none_or(|(held, _)| held != roles) {
-            let program = self.set_up(roles)?;
-            self.held = Some((roles.to_vec(), program));
-        }
-        let (_, program) = self.held.as_mut()?;
-        let mut x = vec![0.0; linear.len()];
-        work.iterations += program.minimise(linear, &[], tolerance, &mut x)?;
-        work.programs += usize::from(program.has_cones());
-        work.cones = work
-            .cones
-            .max(roles.iter().filter(|&&role| role == Role::Cone).count());
-        Some(x)
-    }
-
-    /// The program of `roles`; where G is singular on the free contacts they get their cones.
-    fn set_up(&self, roles: &mut [Role]) -> Option<ReducedProgram> {
-        let normals = &self.problem.offsets()[..self.problem.contacts()];
-        let with = |roles: &[Role], role| -> Vec<usize> {
-            let pairs = normals.iter().zip(roles);
-            pairs
-                .filter(|&(_, &r)| r == role)
-                .map(|(&n, _)| n)
-                .collect()
-        };
-        let form = self.problem.compliance().as_ref();
-        let (free, cone) = (with(roles, Role::Free), with(roles, Role::Cone));
-        ReducedProgram::new(form, free, cone, &Cones::Nonpositive).or_else(|| {
-            for role in roles.iter_mut().filter(|role| **role == Role::Free) {
-                *role = Role::Cone;
-            }
-            ReducedProgram::new(
-                form,
-                Vec::new(),
-                with(roles, Role::Cone),
-                &Cones::Nonpositive,
-            )
-        })
     }
 }
 

@@ -5,10 +5,13 @@
 //! prediction costs time, never the answer: each half-step checks all contacts and
 //! gives whoever breaks its prediction the cone back.
 
+use std::ops::Range;
+
 use faer::MatRef;
 
 use super::clarabel::ConeProgram;
 use super::elimination::{Elimination, gather};
+use crate::condensation::ContactProblem;
 
 /// A contact's place in the program of a half-step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,34 +35,129 @@ pub struct HalfStepWork {
     pub cones: usize,
 }
 
+/// The half of each contact's unknowns that a half-step moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Half {
+    /// `x ≤ 0`.
+    Normal,
+    /// `‖x‖ ≤` bound.
+    Tangential,
+}
+
+/// The program of a half-step; a working set that stays the same is set up once.
+pub(super) struct WorkingSet<'a> {
+    problem: &'a ContactProblem,
+    half: Half,
+    held: Option<(Vec<Role>, ReducedProgram)>,
+}
+
+impl<'a> WorkingSet<'a> {
+    /// Nothing is set up before the first minimisation.
+    pub(super) fn new(problem: &'a ContactProblem, half: Half) -> Self {
+        Self {
+            problem,
+            half,
+            held: None,
+        }
+    }
+
+    /// The unknowns of a contact that the half-step moves.
+    pub(super) fn unknowns(&self, contact: usize) -> Range<usize> {
+        let (start, end) = (
+            self.problem.offsets()[contact],
+            self.problem.offsets()[contact + 1],
+        );
+        match self.half {
+            Half::Normal => start..start + 1,
+            Half::Tangential => start + 1..end,
+        }
+    }
+
+    /// The minimiser of `½ x·G x + q·x` over the contacts as their roles have it; all other unknowns are zero.
+    ///
+    /// `linear` is q for every unknown, `bounds` the radius of every contact's disc (not read for the normal half).
+    /// Where G is singular on the free contacts they get their cones.
+    pub(super) fn minimise(
+        &mut self,
+        linear: &[f64],
+        bounds: &[f64],
+        roles: &mut [Role],
+        tolerance: f64,
+        work: &mut HalfStepWork,
+    ) -> Option<Vec<f64>> {
+        if self.held.as_ref().is_none_or(|(held, _)| held != roles) {
+            let program = self.set_up(roles)?;
+            self.held = Some((roles.to_vec(), program));
+        }
+        let (_, program) = self.held.as_mut()?;
+        let cone = with_role(roles, Role::Cone);
+        let radii: Vec<f64> = match self.half {
+            Half::Normal => Vec::new(),
+            Half::Tangential => cone.iter().map(|&contact| bounds[contact]).collect(),
+        };
+        let mut x = vec![0.0; linear.len()];
+        work.iterations += program.minimise(linear, &radii, tolerance, &mut x)?;
+        work.programs += usize::from(program.program.is_some());
+        work.cones = work.cones.max(cone.len());
+        Some(x)
+    }
+
+    fn set_up(&self, roles: &mut [Role]) -> Option<ReducedProgram> {
+        self.program(roles).or_else(|| {
+            for role in roles.iter_mut().filter(|role| **role == Role::Free) {
+                *role = Role::Cone;
+            }
+            self.program(roles)
+        })
+    }
+
+    /// `None` if G is singular on the free unknowns.
+    fn program(&self, roles: &[Role]) -> Option<ReducedProgram> {
+        let (free, cone) = (with_role(roles, Role::Free), with_role(roles, Role::Cone));
+        let unknowns = |contacts: &[usize]| -> Vec<usize> {
+            let each = contacts.iter().flat_map(|&contact| self.unknowns(contact));
+            each.collect()
+        };
+        let form = self.problem.compliance().as_ref();
+        ReducedProgram::new(
+            form,
+            unknowns(&free),
+            unknowns(&cone),
+            |quadratic| match self.half {
+                Half::Normal => ConeProgram::nonpositive(quadratic),
+                Half::Tangential => {
+                    let sizes = cone.iter().map(|&contact| self.unknowns(contact).len());
+                    ConeProgram::discs(quadratic, &sizes.collect::<Vec<_>>())
+                }
+            },
+        )
+    }
+}
+
+/// Contacts with a role.
+fn with_role(roles: &[Role], role: Role) -> Vec<usize> {
+    (0..roles.len())
+        .filter(|&contact| roles[contact] == role)
+        .collect()
+}
+
 /// `min ½ x·P x + q·x` over the unknowns of a working set; all other unknowns are zero.
-pub(super) struct ReducedProgram {
+struct ReducedProgram {
     free: Vec<usize>,
     cone: Vec<usize>,
     elimination: Option<Elimination>,
     program: Option<ConeProgram>,
 }
 
-/// The cones of a program.
-pub(super) enum Cones<'a> {
-    /// `x ≤ 0`.
-    Nonpositive,
-    /// Discs of the given dimensions.
-    Discs(&'a [usize]),
-}
-
 impl ReducedProgram {
-    /// Sets up the program; `None` if the form is singular on the free unknowns.
-    pub(super) fn new(
+    /// Splits off the free unknowns and hands the form of the others to `cones`; `None` if the form is
+    /// singular on the free unknowns.
+    fn new(
         form: MatRef<'_, f64>,
         free: Vec<usize>,
         cone: Vec<usize>,
-        cones: &Cones<'_>,
+        cones: impl Fn(MatRef<'_, f64>) -> Option<ConeProgram>,
     ) -> Option<Self> {
-        let set_up = |quadratic: MatRef<'_, f64>| match cones {
-            Cones::Nonpositive => ConeProgram::nonpositive(quadratic),
-            Cones::Discs(dimensions) => ConeProgram::discs(quadratic, dimensions),
-        };
         let elimination = if free.is_empty() {
             None
         } else {
@@ -67,8 +165,8 @@ impl ReducedProgram {
         };
         let program = match &elimination {
             _ if cone.is_empty() => None,
-            Some(elimination) => Some(set_up(elimination.reduced.as_ref())?),
-            None => Some(set_up(gather(form, &cone, &cone).as_ref())?),
+            Some(elimination) => Some(cones(elimination.reduced.as_ref())?),
+            None => Some(cones(gather(form, &cone, &cone).as_ref())?),
         };
         Some(Self {
             free,
@@ -81,7 +179,7 @@ impl ReducedProgram {
     /// Writes the minimiser into `x` at the working set's unknowns and returns the iterations.
     ///
     /// `linear` is q for every unknown of the form, `bounds` one number per disc.
-    pub(super) fn minimise(
+    fn minimise(
         &mut self,
         linear: &[f64],
         bounds: &[f64],
@@ -111,9 +209,28 @@ impl ReducedProgram {
         }
         Some(iterations)
     }
+}
 
-    /// Whether a cone program is part of it.
-    pub(super) fn has_cones(&self) -> bool {
-        self.program.is_some()
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::Operator;
+    use faer::mat;
+
+    #[test]
+    fn free_contacts_get_their_cones_where_they_cannot_be_told_apart() {
+        // Two contacts on one spot, G = [[1, 1], [1, 1]]: only the sum of their reactions is determined, −2.
+        let operator = Operator::from_compliance(mat![[1.0, 1.0], [1.0, 1.0]]).unwrap();
+        let (zero, free) = (vec![0.0; 2], vec![2.0; 2]);
+        let problem =
+            ContactProblem::new(&[0, 0], zero.clone(), zero, free.clone(), operator).unwrap();
+        let mut set = WorkingSet::new(&problem, Half::Normal);
+        let (mut roles, mut work) = ([Role::Free; 2], HalfStepWork::default());
+        let x = set
+            .minimise(&free, &[], &mut roles, 1e-10, &mut work)
+            .unwrap();
+        assert!((x[0] + x[1] + 2.0).abs() < 1e-8, "{x:?}");
+        assert_eq!((roles, work.programs, work.cones), ([Role::Cone; 2], 1, 2));
     }
 }
