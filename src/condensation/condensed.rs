@@ -65,13 +65,14 @@ impl Condensed {
         let (mut condensed, mut interfaces, mut trailing) = (Vec::new(), Vec::new(), Vec::new());
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
             let interface = Interface::new(&surface, index, dimension, &prescribed);
+            let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
             let supported = SupportedBody {
                 name: &body.name,
                 nodes: &body.mesh.nodes,
                 dimension,
                 stiffness: body::stiffness(body),
                 load: body::load_vector(body),
-                grounding: Grounding::new(body, &prescribed),
+                grounding: Grounding::new(body, &prescribed, &nodes),
                 prescribed,
             };
             let (body, of_interface) = supported.condense(&interface.nodes, &mut work)?;

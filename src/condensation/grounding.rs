@@ -27,8 +27,9 @@ pub(super) struct Grounding {
 }
 
 impl Grounding {
-    /// What `prescribed` leaves free of a body; nothing at all if it is held.
-    pub(super) fn new(body: &Body, prescribed: &[Option<f64>]) -> Self {
+    /// What `prescribed` leaves free of a body; nothing at all if it is held. Springs stand
+    /// away from the nodes of the interface where they can.
+    pub(super) fn new(body: &Body, prescribed: &[Option<f64>], interface: &[usize]) -> Self {
         let free = body::free_modes(body, prescribed);
         let axes = body.mesh.dimension;
         let mut modes = Mat::zeros(prescribed.len(), free.modes.len());
@@ -44,7 +45,7 @@ impl Grounding {
                 }
             }
         }
-        let springs = body::fixing_dofs(body, prescribed, &free);
+        let springs = body::fixing_dofs(body, prescribed, &free, interface);
         let size = |mode: &RigidMode| {
             let nodes = free.parts[mode.part]
                 .iter()

@@ -50,7 +50,7 @@ impl RigidBodies {
         Ok(Self {
             surface,
             groundings: held
-                .map(|(body, held)| Grounding::new(body, held))
+                .map(|(body, held)| Grounding::new(body, held, &[]))
                 .collect(),
             dimension: bodies.first().map_or(3, |body| body.mesh.dimension),
         })

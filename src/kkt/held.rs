@@ -40,11 +40,11 @@ pub fn held(
     for (block, mu) in offsets.windows(2).zip(friction) {
         let t = &reaction[block[0]..block[1]];
         let tangential = t[1..].iter().fold(0.0, |size: f64, t| size.hypot(*t));
-        let outside = t[0].max(tangential + mu * t[0].min(0.0));
-        if outside.is_nan() {
+        // `max` drops NaN: a broken contact would score zero.
+        if t.iter().any(|t| t.is_nan()) {
             excess = f64::INFINITY;
         }
-        excess = excess.max(outside);
+        excess = excess.max(t[0]).max(tangential + mu * t[0].min(0.0));
         largest = largest.max(t[0].abs().hypot(tangential));
     }
     Ok(Held {
