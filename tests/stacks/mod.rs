@@ -1,7 +1,7 @@
 //! Blocks on blocks: scenes of several bodies, built in code.
 #![allow(dead_code)]
 
-use dpana::body::{CellKind, Mesh, box_mesh, graded, rectangle};
+use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded, rectangle};
 use dpana::report::Report;
 use dpana::scene::{
     MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
@@ -74,4 +74,39 @@ pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
     assert_eq!(solution.status(), Status::Certified);
     let report = solution.report().unwrap();
     (solution, report)
+}
+
+/// The cells of a group with their nodes and surface groups, as a mesh of its own.
+pub(crate) fn part(mesh: &Mesh, group: &str) -> Mesh {
+    let Group::Cells(cells) = &mesh.groups[group] else {
+        unreachable!("{group} is no group of cells");
+    };
+    let mut number = vec![None; mesh.nodes.len()];
+    let mut part = Mesh::new(mesh.dimension, Vec::new());
+    for &cell in cells {
+        let cell = mesh.cell(cell);
+        let nodes = cell.nodes.iter().map(|&node| {
+            *number[node].get_or_insert_with(|| {
+                part.nodes.push(mesh.nodes[node]);
+                part.nodes.len() - 1
+            })
+        });
+        let nodes: Vec<usize> = nodes.collect();
+        part.push_cell(cell.kind, &nodes);
+    }
+    for (name, group) in &mesh.groups {
+        let Group::Facets(facets) = group else {
+            continue;
+        };
+        let renumbered = facets.iter().filter_map(|facet| {
+            let nodes = facet.nodes.iter().map(|node| number[*node]);
+            let nodes = nodes.collect::<Option<Vec<usize>>>()?;
+            Some(Facet { nodes })
+        });
+        let facets: Vec<Facet> = renumbered.collect();
+        if !facets.is_empty() {
+            part.groups.insert(name.clone(), Group::Facets(facets));
+        }
+    }
+    part
 }
