@@ -60,6 +60,11 @@ pub(super) fn between_surfaces(
     let place = format!("{}.opposite", pair.place);
     check_pair_body(&place, opposite, scene.bodies.len())?;
     let side = |body: usize, facets: &[Facet], place: &str| {
+        if facets.is_empty() {
+            return Err(Error::Empty {
+                place: place.to_owned(),
+            });
+        }
         let facets = scene.boundaries[body].outward(facets, place)?;
         Ok(Side { body, facets })
     };

@@ -110,3 +110,15 @@ pub(crate) fn part(mesh: &Mesh, group: &str) -> Mesh {
     }
     part
 }
+
+/// The body with one component given at a node of its mesh.
+pub(crate) fn hold_at(mut body: SceneBody, at: [f64; 3], axis: usize, value: f64) -> SceneBody {
+    let axes = if body.model.is_some() { 2 } else { 3 };
+    let mut displacement = vec![None; axes];
+    displacement[axis] = Some(value);
+    body.supports.push(SceneSupport::At {
+        at: at[..axes].to_vec(),
+        displacement,
+    });
+    body
+}
