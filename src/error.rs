@@ -85,8 +85,7 @@ pub enum Error {
     #[error(
         "{place}: none of the {facets} facets faces any of the {opposite} facets of the other side \
          ({averted} pairs lie over each other but look the same way); expected outward normals that \
-         point towards each other, within 60 degrees, facets that cover each other along them, and \
-         an interference of at most half the extent of the first side"
+         point towards each other, within 60 degrees, and facets that cover each other along them"
     )]
     NothingFacesOpposite {
         /// The contact pair, such as `contacts[0]`.
@@ -97,6 +96,22 @@ pub enum Error {
         opposite: usize,
         /// Pairs of facets, one about over the other, with normals that do not oppose.
         averted: usize,
+    },
+
+    /// The two sides of a contact pair are in each other deeper than an interference fit.
+    #[error(
+        "{place}: the bodies overlap by {overlap:e} m at {position:?}; expected at most {allowed:e} m, \
+         a twentieth of the extent of the smaller side"
+    )]
+    Overlap {
+        /// The contact pair, such as `contacts[0]`.
+        place: String,
+        /// A point of the side that carries the contacts, in metre.
+        position: [f64; 3],
+        /// Depth of the overlap there, in metre.
+        overlap: f64,
+        /// Largest overlap accepted, in metre.
+        allowed: f64,
     },
 
     /// No contact node is left.

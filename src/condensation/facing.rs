@@ -41,26 +41,33 @@ impl<'a> Boundary<'a> {
         }
     }
 
+    /// Facets of the boundary in outward order, each once.
+    pub(super) fn outward(&self, facets: &[Facet], place: &str) -> Result<Vec<Facet>, Error> {
+        let mut seen = HashSet::new();
+        let mut outward = Vec::with_capacity(facets.len());
+        for (at, facet) in facets.iter().enumerate() {
+            let Some(&index) = self.index_of.get(&key(facet)) else {
+                return Err(self.refuse(facet, format!("{place}[{at}]")));
+            };
+            if seen.insert(index) {
+                outward.push(self.facets[index].clone());
+            }
+        }
+        Ok(outward)
+    }
+
     /// The facets of a pair that face its obstacle, each once.
     pub(super) fn facing(
         &self,
         pair: &ContactPair,
         obstacle: &Obstacle,
     ) -> Result<Vec<(Facet, FacetGeometry)>, Error> {
-        let mut seen = HashSet::new();
         let mut facing = Vec::new();
-        for (at, facet) in pair.facets.iter().enumerate() {
-            let Some(&index) = self.index_of.get(&key(facet)) else {
-                return Err(self.refuse(facet, format!("{}.facets[{at}]", pair.place)));
-            };
-            if !seen.insert(index) {
-                continue;
-            }
-            let outward = &self.facets[index];
-            let geometry = self.mesh.facet_geometry(outward);
-            let seen_from = obstacle.closest(&pair.place, self.centre(outward))?;
+        for facet in self.outward(&pair.facets, &format!("{}.facets", pair.place))? {
+            let geometry = self.mesh.facet_geometry(&facet);
+            let seen_from = obstacle.closest(&pair.place, self.centre(&facet))?;
             if cosine(geometry.normal, seen_from.direction) > FACING {
-                facing.push((outward.clone(), geometry));
+                facing.push((facet, geometry));
             }
         }
         if facing.is_empty() {

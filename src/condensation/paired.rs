@@ -1,118 +1,193 @@
-//! The contacts of a pair of surfaces, one per node of the first that the other covers.
+//! The contacts of a pair of surfaces, one per node of one side that the other covers.
+//!
+//! The side that the pair names first carries the contacts, unless it is much stiffer: its
+//! own compliance would then drown in that of the other side, `G = G₁ + P G₂ Pᵀ`, and with it
+//! all but the patterns of pressure that the other side's mesh can tell apart. Compliance of
+//! the softer side is there for every contact, whatever the meshes.
+//!
+//! Along an axis that supports hold on both sides nothing moves, so a contact has no unknown
+//! there; on a symmetry plane its normal lies in the plane, as if mirrored facets went on
+//! beyond it.
 
 use std::collections::HashSet;
 
+use nalgebra::Vector3;
+
+use super::facing::Boundary;
 use super::frame::Stance;
 use super::mortar::{self, MortarNode};
-use super::surface::PairSurface;
+use super::surface::{PairSurface, check_pair_body};
 use super::{ContactNode, ContactPair, OppositeNodes};
 use crate::body::{Body, Facet};
 use crate::error::Error;
 
-/// The second surface of a pair.
-pub(super) struct OppositeSurface<'a> {
-    /// Index of its body.
-    pub(super) body: usize,
-    pub(super) facets: &'a [Facet],
+/// Ratio of Young's moduli beyond which the softer side carries the contacts: three digits of
+/// sixteen is what the stiffer one may cost.
+const MUCH_STIFFER: f64 = 1e3;
+
+/// Weight of the other side's held nodes beyond which it does not move.
+const MOSTLY: f64 = 0.5;
+
+/// Part of a normal across the axes along which nothing moves, below which it is held.
+const LEANING: f64 = 0.5;
+
+/// One surface of a pair, in outward order.
+struct Side {
+    body: usize,
+    facets: Vec<Facet>,
 }
 
-/// The contacts of a pair of surfaces; bodies and prescribed displacements of the scene.
+/// Bodies of a scene with what is known of each.
+pub(super) struct Bodies<'a> {
+    pub(super) bodies: &'a [Body],
+    pub(super) boundaries: &'a [Boundary<'a>],
+    /// Prescribed displacement per body and degree of freedom.
+    pub(super) prescribed: &'a [Vec<Option<f64>>],
+}
+
+/// The contacts of a pair with the `facets` of body `opposite`.
 ///
 /// # Errors
 ///
-/// What [`mortar::couple`] refuses.
+/// A body that does not exist, facets that are not on the boundary or on both sides, and
+/// what [`mortar::couple`] refuses.
 pub(super) fn between_surfaces(
-    bodies: &[Body],
-    prescribed: &[Vec<Option<f64>>],
+    scene: &Bodies<'_>,
     pair: &ContactPair,
-    opposite: &OppositeSurface<'_>,
+    opposite: usize,
+    facets: &[Facet],
 ) -> Result<PairSurface, Error> {
-    let (own, other) = (&bodies[pair.body], &bodies[opposite.body]);
+    let place = format!("{}.opposite", pair.place);
+    check_pair_body(&place, opposite, scene.bodies.len())?;
+    let side = |body: usize, facets: &[Facet], place: &str| {
+        if facets.is_empty() {
+            return Err(Error::Empty {
+                place: place.to_owned(),
+            });
+        }
+        let facets = scene.boundaries[body].outward(facets, place)?;
+        Ok(Side { body, facets })
+    };
+    let first = side(pair.body, &pair.facets, &format!("{}.facets", pair.place))?;
+    let second = side(opposite, facets, &place)?;
+    refuse_common_facets(&first, &second, &place)?;
+    let stiffer = softest(scene.bodies, &first) > MUCH_STIFFER * softest(scene.bodies, &second);
+    if stiffer {
+        contacts(scene, pair, &second, &first)
+    } else {
+        contacts(scene, pair, &first, &second)
+    }
+}
+
+fn refuse_common_facets(first: &Side, second: &Side, place: &str) -> Result<(), Error> {
+    if first.body != second.body {
+        return Ok(());
+    }
+    let of_first: HashSet<&[usize]> = first.facets.iter().map(|f| &f.nodes[..]).collect();
+    let mut facets = second.facets.iter();
+    match facets.find(|facet| of_first.contains(&facet.nodes[..])) {
+        None => Ok(()),
+        Some(facet) => Err(Error::NotAccepted {
+            place: place.to_owned(),
+            found: format!("the facet with nodes {:?} on both sides", facet.nodes),
+            accepted: "two surfaces without a common facet".to_owned(),
+        }),
+    }
+}
+
+/// Least Young's modulus at a surface, in pascal.
+fn softest(bodies: &[Body], side: &Side) -> f64 {
+    let body = &bodies[side.body];
+    let mut on_surface = vec![false; body.mesh.nodes.len()];
+    for &node in side.facets.iter().flat_map(|facet| &facet.nodes) {
+        on_surface[node] = true;
+    }
+    let cells = body.mesh.cells().zip(&body.material_of_cell);
+    let at_surface = cells.filter(|(cell, _)| cell.nodes.iter().any(|node| on_surface[*node]));
+    at_surface
+        .map(|(_, material)| body.materials[*material].young)
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The contacts at the nodes of `own`.
+fn contacts(
+    scene: &Bodies<'_>,
+    pair: &ContactPair,
+    own: &Side,
+    other: &Side,
+) -> Result<PairSurface, Error> {
+    let (body, across) = (&scene.bodies[own.body], &scene.bodies[other.body]);
+    let dimension = body.mesh.dimension;
     let coupled = mortar::couple(
-        &own.mesh,
-        &pair.facets,
-        &other.mesh,
-        opposite.facets,
+        &body.mesh,
+        &own.facets,
+        &across.mesh,
+        &other.facets,
         &pair.place,
     )?;
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
-    for node in coupled.nodes {
-        let held = |body: usize, node: usize| held_axes(bodies, prescribed, body, node);
-        let of_node = held(pair.body, node.node);
-        // A direction moves if one of the nodes can move along it.
-        let mut sides = vec![of_node];
-        sides.extend(
-            node.opposite
-                .iter()
-                .map(|&(node, _)| held(opposite.body, node)),
-        );
-        let moves = |row: &[f64; 3]| {
-            sides
-                .iter()
-                .any(|held| row.iter().zip(held).any(|(d, held)| *d != 0.0 && !held))
-        };
-        let mut frame = frame(own.mesh.dimension, &node, of_node);
-        frame[1..].sort_by_key(|row| !moves(row));
-        if !moves(&frame[0]) {
+    for mut node in coupled.nodes {
+        let still = still_axes(scene, own.body, other.body, &node);
+        let Some(normal) = across_axes(node.normal, still) else {
             left_out.push(node.node);
             continue;
+        };
+        if normal != node.normal {
+            node.look_along(normal, &body.mesh, &across.mesh);
         }
-        let tangents = frame[1..own.mesh.dimension]
-            .iter()
-            .filter(|row| moves(row))
-            .count();
+        let Stance::Free { frame, kept } = Stance::new(dimension, normal, still) else {
+            left_out.push(node.node);
+            continue;
+        };
         contacts.push(ContactNode {
-            body: pair.body,
+            body: own.body,
             node: node.node,
             opposite: Some(OppositeNodes {
-                body: opposite.body,
+                body: other.body,
                 nodes: node.opposite,
             }),
             pair: 0,
-            position: own.mesh.nodes[node.node],
+            position: body.mesh.nodes[node.node],
             frame,
-            tangents: if pair.friction == 0.0 { 0 } else { tangents },
+            tangents: if pair.friction == 0.0 { 0 } else { kept },
             initial_gap: node.initial_gap,
-            area: node.weight * own.model.depth(),
+            area: node.weight * body.model.depth(),
             rim: false,
         });
     }
-    let met: HashSet<usize> = contacts
-        .iter()
-        .map(|contact| contact.node)
-        .chain(left_out.iter().copied())
-        .collect();
+    scene.boundaries[own.body].mark_rims(&mut contacts, &own.facets);
+    let met = contacts.iter().map(|contact| contact.node);
+    let met: HashSet<usize> = met.chain(left_out.iter().copied()).collect();
     let covered = |facet: &&Facet| facet.nodes.iter().all(|node| met.contains(node));
-    let facets = pair.facets.iter().filter(covered).cloned().collect();
     Ok(PairSurface {
+        body: own.body,
+        facets: own.facets.iter().filter(covered).cloned().collect(),
         contacts,
-        facets,
         left_out,
     })
 }
 
-/// Which axes of a node a support holds; an axis that the body does not have is held.
-fn held_axes(
-    bodies: &[Body],
-    prescribed: &[Vec<Option<f64>>],
-    body: usize,
-    node: usize,
-) -> [bool; 3] {
-    let dimension = bodies[body].mesh.dimension;
-    let of_node = &prescribed[body][node * dimension..(node + 1) * dimension];
-    std::array::from_fn(|axis| of_node.get(axis).is_none_or(Option::is_some))
+/// Axes along which supports hold the node and most of what it meets.
+fn still_axes(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarNode) -> [bool; 3] {
+    let dimension = scene.bodies[own].mesh.dimension;
+    let held = |body: usize, node: usize, axis: usize| {
+        scene.prescribed[body][node * dimension + axis].is_some()
+    };
+    std::array::from_fn(|axis| {
+        axis < dimension && held(own, node.node, axis) && {
+            let opposite = node.opposite.iter();
+            let still = opposite.filter(|(across, _)| held(other, *across, axis));
+            still.map(|(_, weight)| weight).sum::<f64>() > MOSTLY
+        }
+    })
 }
 
-/// Normal and tangents, along the supported axes of the node where these lie across.
-fn frame(dimension: usize, node: &MortarNode, held: [bool; 3]) -> [[f64; 3]; 3] {
-    let mut supported = held;
-    supported[dimension..].fill(false);
-    match Stance::new(dimension, node.normal, supported) {
-        Stance::Free { frame, .. } => frame,
-        Stance::Held | Stance::Askew => match Stance::new(dimension, node.normal, [false; 3]) {
-            Stance::Free { frame, .. } => frame,
-            // Without supports nothing is held.
-            Stance::Held | Stance::Askew => [node.normal, [0.0; 3], [0.0; 3]],
-        },
+/// The direction without its components along some axes; none if little is left.
+fn across_axes(direction: [f64; 3], axes: [bool; 3]) -> Option<[f64; 3]> {
+    let kept: [f64; 3] = std::array::from_fn(|i| if axes[i] { 0.0 } else { direction[i] });
+    if kept == direction {
+        return Some(direction);
     }
+    let kept = Vector3::from(kept).try_normalize(LEANING)?;
+    Some(kept.into())
 }

@@ -10,16 +10,18 @@ use std::collections::HashMap;
 use super::Obstacle;
 use super::facing::Boundary;
 use super::frame::Stance;
-use super::paired::{OppositeSurface, between_surfaces};
+use super::paired::{Bodies, between_surfaces};
 use crate::body::{Body, Facet, FacetGeometry};
-use crate::error::{Error, check_finite};
+use crate::error::{Error, check_finite, check_length};
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactPair {
     /// Where the scene says so, for messages, such as `contacts[0]`.
     pub place: String,
-    /// Index of the body whose nodes carry the contacts.
+    /// Index of the body that the pair names first. Its nodes carry the contacts, unless it
+    /// is more than a thousand times as stiff at the surface as the body opposite: then
+    /// those of that one do.
     pub body: usize,
     /// The assumed contact surface; it need only contain the true contact.
     pub facets: Vec<Facet>,
@@ -99,57 +101,49 @@ impl ContactSurface {
     ///
     /// # Errors
     ///
-    /// An obstacle without a surface, a friction coefficient that is negative or not
-    /// finite, a facet that is not on the boundary, a pair of which nothing faces the
-    /// other side, a support at an angle to a contact normal, a support that drags a
-    /// contact with friction, or no contact node at all.
+    /// A body that does not exist, an obstacle without a surface, a friction coefficient
+    /// that is negative or not finite, a facet that is not on the boundary or on both sides
+    /// of a pair, a pair of which nothing faces the other side, bodies that overlap deeper
+    /// than a fit, a support at an angle to an obstacle's normal, a support that drags a
+    /// contact with friction along an obstacle, or no contact node at all.
     pub fn new(
         bodies: &[Body],
         pairs: &[ContactPair],
         prescribed: &[Vec<Option<f64>>],
     ) -> Result<Self, Error> {
+        check_length("prescribed", bodies.len(), prescribed.len())?;
+        for (body, prescribed) in bodies.iter().zip(prescribed) {
+            let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
+            let place = format!("{}: prescribed", body.name);
+            check_length(&place, unknowns, prescribed.len())?;
+        }
         let mut surface = Self::default();
-        let boundaries: Vec<Boundary> = bodies
-            .iter()
-            .map(|body| Boundary::new(&body.mesh))
-            .collect();
+        let boundaries = bodies.iter().map(|body| Boundary::new(&body.mesh));
+        let boundaries: Vec<Boundary> = boundaries.collect();
+        let scene = Bodies {
+            bodies,
+            boundaries: &boundaries,
+            prescribed,
+        };
         for (index, pair) in pairs.iter().enumerate() {
-            let Some(body) = bodies.get(pair.body) else {
-                return Err(Error::UnknownIndex {
-                    place: pair.place.clone(),
-                    what: "body",
-                    index: pair.body,
-                    count: bodies.len(),
-                });
-            };
-            pair.check(body.mesh.dimension)?;
+            check_pair_body(&pair.place, pair.body, bodies.len())?;
+            pair.check(bodies[pair.body].mesh.dimension)?;
             let mut found = match &pair.opposite {
-                Opposite::Obstacle(obstacle) => on_obstacle(
-                    body,
-                    pair,
-                    obstacle,
-                    &boundaries[pair.body],
-                    &prescribed[pair.body],
-                )?,
+                Opposite::Obstacle(obstacle) => on_obstacle(&scene, pair, obstacle)?,
                 Opposite::Surface { body, facets } => {
-                    let opposite = OppositeSurface {
-                        body: *body,
-                        facets,
-                    };
-                    between_surfaces(bodies, prescribed, pair, &opposite)?
+                    between_surfaces(&scene, pair, *body, facets)?
                 }
             };
-            boundaries[pair.body].mark_rims(&mut found.contacts, &pair.facets);
             for contact in &mut found.contacts {
                 contact.pair = index;
             }
+            let of_body = |facet| (found.body, facet);
             surface.nodes.append(&mut found.contacts);
-            surface
-                .facets
-                .extend(found.facets.into_iter().map(|facet| (pair.body, facet)));
+            surface.facets.extend(found.facets.into_iter().map(of_body));
+            let left_out = found.left_out.into_iter();
             surface
                 .left_out
-                .extend(found.left_out.into_iter().map(|node| (pair.body, node)));
+                .extend(left_out.map(|node| (found.body, node)));
         }
         if surface.nodes.is_empty() {
             return Err(Error::EmptyContactSurface {
@@ -165,6 +159,8 @@ impl ContactSurface {
 
 /// What one pair adds to the contact surface.
 pub(super) struct PairSurface {
+    /// The body whose nodes carry the contacts.
+    pub(super) body: usize,
     pub(super) contacts: Vec<ContactNode>,
     pub(super) facets: Vec<Facet>,
     pub(super) left_out: Vec<usize>,
@@ -172,12 +168,12 @@ pub(super) struct PairSurface {
 
 /// The contacts of a pair with a rigid obstacle.
 fn on_obstacle(
-    body: &Body,
+    scene: &Bodies<'_>,
     pair: &ContactPair,
     obstacle: &Obstacle,
-    boundary: &Boundary<'_>,
-    prescribed: &[Option<f64>],
 ) -> Result<PairSurface, Error> {
+    let (body, boundary) = (&scene.bodies[pair.body], &scene.boundaries[pair.body]);
+    let prescribed = &scene.prescribed[pair.body];
     let facing = boundary.facing(pair, obstacle)?;
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
     for (node, area) in areas(body, &facing) {
@@ -186,11 +182,25 @@ fn on_obstacle(
             None => left_out.push(node),
         }
     }
-    let facets = facing.into_iter().map(|(facet, _)| facet).collect();
+    boundary.mark_rims(&mut contacts, &pair.facets);
     Ok(PairSurface {
+        body: pair.body,
         contacts,
-        facets,
+        facets: facing.into_iter().map(|(facet, _)| facet).collect(),
         left_out,
+    })
+}
+
+/// Refuses the number of a body that does not exist.
+pub(super) fn check_pair_body(place: &str, body: usize, count: usize) -> Result<(), Error> {
+    if body < count {
+        return Ok(());
+    }
+    Err(Error::UnknownIndex {
+        place: place.to_owned(),
+        what: "body",
+        index: body,
+        count,
     })
 }
 

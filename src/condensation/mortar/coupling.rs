@@ -7,6 +7,7 @@ use nalgebra::Vector3;
 use super::alignment::align;
 use super::check::geometries;
 use super::cover::Opposite;
+use super::overlap::Overlaps;
 use super::projection::Projection;
 use super::search::Bounds;
 use super::view::View;
@@ -17,19 +18,25 @@ use crate::error::Error;
 /// Covered share of a node's tributary area below which the node is no contact.
 const VANISHING: f64 = 1e-12;
 
+/// Interference that is believed, of the diagonal of the smaller side: more is no fit, and beyond
+/// small displacements.
+const INTERFERENCE: f64 = 0.05;
+
 /// Weight that is round-off.
 const NEGLIGIBLE: f64 = 4.0 * f64::EPSILON;
 
 /// Couples the nodes of side 1 to side 2; facets in outward order
 /// ([`Mesh::orient`]), each listed once; `place` names the contact pair in messages.
 ///
-/// The two sides may be faces of one mesh. Overlap is found down to half the diagonal
-/// of side 1; in front there is no limit.
+/// The two sides may be faces of one mesh. In front there is no limit to the distance;
+/// overlap counts as an interference fit down to a twentieth of the diagonal of the
+/// smaller side.
 ///
 /// # Errors
 ///
 /// Meshes of different dimension, what is no facet (a wrong number of nodes, a node that
-/// does not exist, no area, a fold), and sides of which no part faces the other.
+/// does not exist, no area, a fold), bodies that overlap deeper, and sides of which no part
+/// faces the other.
 pub fn couple(
     mesh1: &Mesh,
     facets1: &[Facet],
@@ -46,16 +53,29 @@ pub fn couple(
     }
     let geometries1 = geometries(mesh1, facets1, &format!("{place}.facets"))?;
     let geometries2 = geometries(mesh2, facets2, &format!("{place}.opposite"))?;
-    let depth = Bounds::around(mesh1, facets1.iter()).diagonal() / 2.0;
-    let opposite = Opposite::new(mesh2, facets2, &geometries2, depth);
+    let extents = [(mesh1, facets1), (mesh2, facets2)]
+        .map(|(mesh, facets)| Bounds::around(mesh, facets.iter()).diagonal());
+    let depth = INTERFERENCE * extents[0].min(extents[1]);
+    let reach = extents[0].max(extents[1]);
+    let opposite = Opposite::new(mesh2, facets2, &geometries2, [depth, reach]);
+    let overlaps = Overlaps::new(mesh1, mesh2);
     let mut gathered = Gathered::default();
     let mut averted = 0;
     for (facet, geometry) in facets1.iter().zip(&geometries1) {
         let view = View::new(mesh1, facet);
         let outline = view.outline(mesh1, facet);
-        let (parts, turned) = opposite.parts(&view, &outline);
-        averted += turned;
-        let projection = Projection::new(&view, &outline, facet.nodes.len(), &parts, facets2);
+        let cover = opposite.cover(&view, &outline);
+        averted += cover.averted;
+        if let Some(span) = cover.behind.filter(|span| overlaps.encloses(span)) {
+            return Err(Error::Overlap {
+                place: place.to_owned(),
+                position: span.from.into(),
+                overlap: span.length(),
+                allowed: depth,
+            });
+        }
+        let count = facet.nodes.len();
+        let projection = Projection::new(&view, &outline, count, &cover.parts, facets2);
         gathered.add(facet, &geometry.weights, &projection);
     }
     let same_mesh = std::ptr::eq(mesh1, mesh2);
@@ -118,6 +138,29 @@ impl Gathered {
     }
 }
 
+impl MortarNode {
+    /// Makes a unit vector the normal: the weights follow (C10), and the gap.
+    pub(in crate::condensation) fn look_along(
+        &mut self,
+        normal: [f64; 3],
+        mesh1: &Mesh,
+        mesh2: &Mesh,
+    ) {
+        let position = mesh1.nodes[self.node];
+        let direction = Vector3::from(normal);
+        let weights = &mut self.opposite;
+        align(weights, &mesh2.nodes, position, direction, mesh1.dimension);
+        let x = Vector3::from(position);
+        let terms = self.opposite.iter();
+        let gap_vector: Vector3<f64> = terms
+            .map(|(k, weight)| (Vector3::from(mesh2.nodes[*k]) - x) * *weight)
+            .sum();
+        self.normal = normal;
+        self.gap_vector = gap_vector.into();
+        self.initial_gap = gap_vector.dot(&direction);
+    }
+}
+
 impl Share {
     /// The contact of the node (C9); none if nothing covers it.
     fn contact(
@@ -136,29 +179,18 @@ impl Share {
                 accepted: "facets around a node that do not look opposite ways",
             });
         };
-        let position = mesh1.nodes[self.node];
         self.sum_up();
-        align(
-            &mut self.opposite,
-            &mesh2.nodes,
-            position,
-            normal,
-            mesh1.dimension,
-        );
-        let x = Vector3::from(position);
-        let terms = self.opposite.iter();
-        let gap_vector: Vector3<f64> = terms
-            .map(|(k, weight)| (Vector3::from(mesh2.nodes[*k]) - x) * *weight)
-            .sum();
-        Ok(Some(MortarNode {
+        let mut node = MortarNode {
             node: self.node,
             weight: self.weight,
             normal: normal.into(),
             opposite: self.opposite,
-            gap_vector: gap_vector.into(),
-            initial_gap: gap_vector.dot(&normal),
+            gap_vector: [0.0; 3],
+            initial_gap: 0.0,
             covered: (self.weight / self.support).min(1.0),
-        }))
+        };
+        node.look_along(normal.into(), mesh1, mesh2);
+        Ok(Some(node))
     }
 
     /// Weights per node of side 2 that sum to one, without those that are round-off.

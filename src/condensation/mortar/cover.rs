@@ -3,6 +3,7 @@
 //! ```text
 //! facing    m · m² < −½                      m, m²: outward normals
 //! in reach  g > −depth                       g: distance along m; any distance in front
+//! behind    −reach < g ≤ −depth              an overlap, or the far side of a thin body
 //! nearest   least |g|                        where several layers lie over each other
 //! ```
 //!
@@ -31,8 +32,34 @@ pub(super) struct Opposite<'a> {
     facets: &'a [Facet],
     geometries: &'a [FacetGeometry],
     tree: Tree,
-    /// Depth behind a facet down to which overlap is believed, in metre.
+    /// Depth behind a facet down to which overlap is believed, and down to which it is
+    /// looked for, in metre.
     depth: f64,
+    reach: f64,
+}
+
+/// What the opposite side is to a facet.
+#[derive(Default)]
+pub(super) struct Cover {
+    /// The parts that it covers.
+    pub(super) parts: Vec<Part>,
+    /// Facets that lie over it but look the same way.
+    pub(super) averted: usize,
+    /// From the facet back to the nearest facet that is deeper behind it than believed.
+    pub(super) behind: Option<Span>,
+}
+
+/// A line between two points of space, in metre.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    pub(super) from: Vector3<f64>,
+    pub(super) to: Vector3<f64>,
+}
+
+impl Span {
+    pub(super) fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
 }
 
 /// A part of a facet and the facet of the other side that covers it.
@@ -53,7 +80,7 @@ impl<'a> Opposite<'a> {
         mesh: &'a Mesh,
         facets: &'a [Facet],
         geometries: &'a [FacetGeometry],
-        depth: f64,
+        [depth, reach]: [f64; 2],
     ) -> Self {
         Self {
             mesh,
@@ -61,24 +88,37 @@ impl<'a> Opposite<'a> {
             geometries,
             tree: Tree::new(mesh, facets),
             depth,
+            reach,
         }
     }
 
-    /// Covered parts of a facet, and how many facets lie over it but look the same way.
-    pub(super) fn parts(&self, view: &View, outline: &Outline) -> (Vec<Part>, usize) {
+    /// What the opposite side is to a facet.
+    pub(super) fn cover(&self, view: &View, outline: &Outline) -> Cover {
         let facet = outline.polygon();
         let least = SLIVER * area(&facet);
-        let (mut parts, mut averted) = (Vec::new(), 0);
-        for index in self.tree.over(&Prism::new(view, &facet, self.depth)) {
+        let mut cover = Cover::default();
+        for index in self.tree.over(&Prism::new(view, &facet, self.reach)) {
             let cosine = view
                 .normal
                 .dot(&Vector3::from(self.geometries[index].normal));
-            averted += usize::from(cosine > -FACING);
-            if cosine < FACING {
-                parts.extend(self.part(view, outline, &facet, least, index));
+            cover.averted += usize::from(cosine > -FACING);
+            if cosine >= FACING {
+                continue;
+            }
+            let Some(part) = self.part(view, outline, &facet, least, index) else {
+                continue;
+            };
+            if part.distance * view.size > -self.depth {
+                cover.parts.push(part);
+                continue;
+            }
+            let span = part.span(view, outline);
+            if (cover.behind.as_ref()).is_none_or(|known| span.length() < known.length()) {
+                cover.behind = Some(span);
             }
         }
-        (nearest(parts, least), averted)
+        cover.parts = nearest(cover.parts, least);
+        cover
     }
 
     /// What one facet covers, if anything.
@@ -101,12 +141,25 @@ impl<'a> Opposite<'a> {
         }
         let centre = centroid(&polygon);
         let distance = outline.height(&outline.shape(centre)) - facet.height(&facet.shape(centre));
-        (distance * view.size > -self.depth).then_some(Part {
+        (distance * view.size > -self.reach).then_some(Part {
             opposite,
             outline,
             polygon,
             distance,
         })
+    }
+}
+
+impl Part {
+    /// From the covered facet to the covering one, at the centre of the part.
+    fn span(&self, view: &View, facet: &Outline) -> Span {
+        let centre = centroid(&self.polygon);
+        let height = facet.height(&facet.shape(centre));
+        let at = |height| view.position(facet.within(centre, height));
+        Span {
+            from: at(height),
+            to: at(height + self.distance),
+        }
     }
 }
 

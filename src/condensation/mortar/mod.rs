@@ -22,6 +22,7 @@
 //! | a facet's plane, the others seen in it | `view` |
 //! | polygons: intersection, difference, area | `polygon` |
 //! | the parts of a facet and what covers them | `cover` |
+//! | bodies that are in each other | `overlap` |
 //! | Gauss points over a polygon | `quadrature` |
 //! | integrals and projection of a facet (C7), (C8) | `projection` |
 //! | sum over the facets (C9) | `coupling` |
@@ -37,6 +38,7 @@ mod coupling;
 mod cover;
 #[cfg(test)]
 mod curved_faces;
+mod overlap;
 #[cfg(test)]
 mod plane_faces;
 mod polygon;

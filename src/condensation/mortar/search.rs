@@ -57,6 +57,21 @@ impl Bounds {
         bounds
     }
 
+    /// The box around points.
+    pub(super) fn of(points: &[[f64; 3]]) -> Self {
+        let one = |at: &[f64; 3]| Self {
+            low: *at,
+            high: *at,
+        };
+        points
+            .iter()
+            .fold(Self::NOTHING, |bounds, at| bounds.with(&one(at)))
+    }
+
+    pub(super) fn contains(&self, point: [f64; 3]) -> bool {
+        (0..3).all(|axis| self.low[axis] <= point[axis] && point[axis] <= self.high[axis])
+    }
+
     fn with(mut self, other: &Self) -> Self {
         for axis in 0..3 {
             self.low[axis] = self.low[axis].min(other.low[axis]);

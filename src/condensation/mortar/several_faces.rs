@@ -52,16 +52,53 @@ fn what_lies_far_behind_a_face_is_not_met() {
 }
 
 #[test]
-fn overlap_is_a_negative_gap_down_to_half_the_extent_of_the_face() {
-    for (kinds, reach) in [
-        ([CellKind::Quad4; 2], 0.5),
-        ([CellKind::Hex8; 2], 0.5_f64.sqrt()),
+fn overlap_is_a_negative_gap_down_to_a_twentieth_of_the_smaller_side() {
+    for (kinds, allowed) in [
+        ([CellKind::Quad4; 2], 0.05),
+        ([CellKind::Hex8; 2], 0.05 * 2.0_f64.sqrt()),
     ] {
-        let mortar = meet(&stack(kinds, [4, 3], 0.01 - reach)).unwrap();
-        let off = |node: &MortarNode| (node.initial_gap - 0.01 + reach).abs();
+        let mortar = meet(&stack(kinds, [4, 3], 0.001 - allowed)).unwrap();
+        let off = |node: &MortarNode| (node.initial_gap - 0.001 + allowed).abs();
         assert!(mortar.nodes.iter().all(|node| off(node) < 1e-15));
-        let found = meet(&stack(kinds, [4, 3], -0.01 - reach)).unwrap_err();
-        assert!(matches!(found, Error::NothingFacesOpposite { .. }));
+        for depth in [allowed + 0.001, 0.4, 0.8] {
+            let found = meet(&stack(kinds, [4, 3], -depth)).unwrap_err();
+            let Error::Overlap { overlap, .. } = found else {
+                unreachable!("{depth} {found}");
+            };
+            assert!((overlap - depth).abs() < 1e-15, "{found}");
+        }
+    }
+}
+
+#[test]
+fn the_far_side_of_a_thin_body_is_no_overlap() {
+    // The top of a plate 0.2 thick looks at the bottom of the block below it from behind; the
+    // assumed surfaces hold both.
+    for kinds in [[CellKind::Quad4; 2], [CellKind::Hex8; 2]] {
+        let dimension = kinds[0].dimension();
+        let plain = stack(kinds, [4, 3], 0.0).map(|side| {
+            side.moved(|mut x| {
+                x[dimension - 1] *= 0.2;
+                x
+            })
+        });
+        let grown = plain.each_ref().map(|side| Side {
+            mesh: side.mesh.clone(),
+            facets: side.mesh.boundary_facets(),
+        });
+        let (plain, grown) = (meet(&plain).unwrap(), meet(&grown).unwrap());
+        assert_eq!(plain.nodes.len(), grown.nodes.len(), "{kinds:?}");
+        for node in &plain.nodes {
+            let same = grown
+                .nodes
+                .iter()
+                .find(|other| other.node == node.node)
+                .unwrap();
+            let weights = node.opposite.iter().zip(&same.opposite);
+            for ((a, weight), (b, other)) in weights {
+                assert!(a == b && (weight - other).abs() < 1e-14, "{kinds:?}");
+            }
+        }
     }
 }
 

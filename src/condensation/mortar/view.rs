@@ -82,6 +82,11 @@ impl View {
         outline
     }
 
+    /// A point given by its coordinates in the plane and along the normal, in metre.
+    pub(super) fn position(&self, coordinates: [f64; 3]) -> Vector3<f64> {
+        self.origin + self.vector(coordinates) * self.size
+    }
+
     /// A vector given by its coordinates in the plane and along the normal.
     pub(super) fn vector(&self, coordinates: [f64; 3]) -> Vector3<f64> {
         let [x, y, z] = coordinates;
@@ -147,6 +152,14 @@ impl Outline {
                 let factors = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
                 factors.map(|(x, y)| (1.0 + x * xi) * (1.0 + y * eta) / 4.0)
             }
+        }
+    }
+
+    /// Coordinates of a point at some height; those of a line stay in the plane body.
+    pub(super) fn within(&self, at: Point, height: f64) -> [f64; 3] {
+        match self.nodes {
+            2 => [at.x, 0.0, height],
+            _ => [at.x, at.y, height],
         }
     }
 

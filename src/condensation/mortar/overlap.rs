@@ -1,0 +1,172 @@
+//! Whether bodies overlap where one side lies behind the other.
+//!
+//! ```text
+//! w(x) = 1/(2π) Σ angle of a line seen from x        (2D)
+//!        1/(4π) Σ solid angle of a facet seen from x (3D)     over the boundary of a mesh
+//! ```
+//!
+//! `w` counts how often the mesh covers `x`. Half way between the sides, bodies that overlap
+//! are both there; below a thin body that lies on the other one only one of them is.
+//! Solid angle of a triangle: van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125–126.
+
+use std::f64::consts::PI;
+use std::sync::OnceLock;
+
+use nalgebra::Vector3;
+
+use super::cover::Span;
+use super::search::Bounds;
+use crate::body::{Facet, Mesh};
+
+/// Both bodies are there: one and one, less what round-off may take.
+const BOTH: f64 = 1.5;
+
+/// The two meshes of a pair; one mesh where a body meets itself.
+pub(super) struct Overlaps<'a> {
+    solids: Vec<Solid<'a>>,
+}
+
+struct Solid<'a> {
+    mesh: &'a Mesh,
+    bounds: Bounds,
+    boundary: OnceLock<Vec<Facet>>,
+}
+
+impl<'a> Overlaps<'a> {
+    pub(super) fn new(mesh1: &'a Mesh, mesh2: &'a Mesh) -> Self {
+        let meshes = [mesh1, mesh2];
+        let count = if std::ptr::eq(mesh1, mesh2) { 1 } else { 2 };
+        let solids = meshes.into_iter().take(count).map(Solid::new);
+        Self {
+            solids: solids.collect(),
+        }
+    }
+
+    /// The middle of the span is inside of both bodies, or twice inside of the one.
+    pub(super) fn encloses(&self, span: &Span) -> bool {
+        let middle = (span.from + span.to) / 2.0;
+        let near = |solid: &Solid<'_>| solid.bounds.contains(middle.into());
+        self.solids.iter().all(near)
+            && self
+                .solids
+                .iter()
+                .map(|s| s.times_inside(middle))
+                .sum::<f64>()
+                > BOTH
+    }
+}
+
+impl<'a> Solid<'a> {
+    fn new(mesh: &'a Mesh) -> Self {
+        Self {
+            mesh,
+            bounds: Bounds::of(&mesh.nodes),
+            boundary: OnceLock::new(),
+        }
+    }
+
+    /// How often the mesh covers a point.
+    fn times_inside(&self, point: Vector3<f64>) -> f64 {
+        let boundary = self.boundary.get_or_init(|| self.mesh.boundary_facets());
+        let seen = |node: &usize| Vector3::from(self.mesh.nodes[*node]) - point;
+        let angles = boundary.iter().map(|facet| {
+            let corners: Vec<Vector3<f64>> = facet.nodes.iter().map(seen).collect();
+            match corners[..] {
+                [a, b] => 2.0 * angle(a, b),
+                [a, b, c] => solid_angle(a, b, c),
+                [a, b, c, d] => solid_angle(a, b, c) + solid_angle(a, c, d),
+                _ => 0.0,
+            }
+        });
+        angles.sum::<f64>() / (4.0 * PI)
+    }
+}
+
+/// Angle from one direction of the plane to another, against the clock.
+fn angle(a: Vector3<f64>, b: Vector3<f64>) -> f64 {
+    (a.x * b.y - a.y * b.x).atan2(a.dot(&b))
+}
+
+/// Solid angle of a triangle, positive when it looks away from the origin.
+fn solid_angle(a: Vector3<f64>, b: Vector3<f64>, c: Vector3<f64>) -> f64 {
+    let lengths = [a.norm(), b.norm(), c.norm()];
+    let below = lengths[0] * lengths[1] * lengths[2]
+        + a.dot(&b) * lengths[2]
+        + b.dot(&c) * lengths[0]
+        + c.dot(&a) * lengths[1];
+    2.0 * a.dot(&b.cross(&c)).atan2(below)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::{CellKind, box_mesh, rectangle};
+
+    /// Blocks of edge 1 over the origin, and the same `shift` further along the last axis.
+    fn blocks(kind: CellKind, shift: f64) -> [Mesh; 2] {
+        let (from, to) = ([0.0, 0.3, 1.0], [shift, shift + 1.0]);
+        [[0.0, 1.0], to].map(|up| match kind.dimension() {
+            2 => rectangle(&from, &up, kind).unwrap(),
+            _ => box_mesh(&from, &from, &up, kind).unwrap(),
+        })
+    }
+
+    /// From the bottom of the upper block back to the top of the lower one, through the centre.
+    fn back(dimension: usize, shift: f64) -> Span {
+        let mut ends = [Vector3::new(0.5, 0.5, 0.0); 2];
+        (ends[0][dimension - 1], ends[1][dimension - 1]) = (shift, 1.0);
+        Span {
+            from: ends[0],
+            to: ends[1],
+        }
+    }
+
+    #[test]
+    fn a_point_is_once_inside_the_mesh_around_it_and_never_outside() {
+        for kind in CellKind::ALL {
+            let [mesh, _] = blocks(kind, 0.5);
+            let solid = Solid::new(&mesh);
+            let depth = if kind.dimension() == 2 { 0.0 } else { 0.4 };
+            let at = |x: f64| solid.times_inside(Vector3::new(x, 0.2, depth));
+            assert!((at(0.9) - 1.0).abs() < 1e-14, "{kind:?} {}", at(0.9));
+            assert!(at(1.2).abs() < 1e-14, "{kind:?} {}", at(1.2));
+        }
+    }
+
+    #[test]
+    fn bodies_overlap_where_both_are_there() {
+        for kind in CellKind::ALL {
+            for (shift, expected) in [(0.7, true), (0.2, true), (1.0, false)] {
+                let [lower, upper] = blocks(kind, shift);
+                let mut span = back(kind.dimension(), shift);
+                if !expected {
+                    // From the top of the upper one to the bottom of the lower one.
+                    (
+                        span.from[kind.dimension() - 1],
+                        span.to[kind.dimension() - 1],
+                    ) = (2.0, 0.0);
+                    span.from *= 0.9;
+                }
+                let found = Overlaps::new(&upper, &lower).encloses(&span);
+                assert_eq!(found, expected, "{kind:?} {shift}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_body_that_covers_a_place_twice_overlaps_itself() {
+        for kind in CellKind::ALL {
+            let [mut body, upper] = blocks(kind, 0.7);
+            let first = body.nodes.len();
+            body.nodes.extend(&upper.nodes);
+            for cell in upper.cells() {
+                let nodes: Vec<usize> = cell.nodes.iter().map(|node| node + first).collect();
+                body.push_cell(kind, &nodes);
+            }
+            let span = back(kind.dimension(), 0.7);
+            assert!(Overlaps::new(&body, &body).encloses(&span), "{kind:?}");
+            assert!(!Overlaps::new(&upper, &upper).encloses(&span), "{kind:?}");
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! Blocks on blocks: scenes of several bodies, built in code.
+#![allow(dead_code)]
+
+use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded, rectangle};
+use dpana::report::Report;
+use dpana::scene::{
+    MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
+};
+use dpana::{Scene, Solution, Status, solve};
+
+/// A block between two corners with `cells` along each axis, their sizes graded; in 2D along
+/// the first two axes.
+pub(crate) fn block(kind: CellKind, low: [f64; 3], high: [f64; 3], cells: [usize; 3]) -> Mesh {
+    let lines = |axis: usize, grading| graded(low[axis], high[axis], cells[axis], grading).unwrap();
+    match kind.dimension() {
+        2 => rectangle(&lines(0, 1.7), &lines(1, 0.6), kind).unwrap(),
+        _ => box_mesh(&lines(0, 1.7), &lines(1, 0.8), &lines(2, 0.6), kind).unwrap(),
+    }
+}
+
+/// A body of one material, without supports; in 2D in plane strain.
+pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBody {
+    SceneBody {
+        name: name.to_owned(),
+        model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
+        mesh: MeshSource::Given(mesh),
+        materials: vec![SceneMaterial {
+            group: None,
+            young,
+            poisson,
+        }],
+        supports: Vec::new(),
+        loads: Vec::new(),
+    }
+}
+
+/// The body with one component of a group's displacement given.
+pub(crate) fn hold(mut body: SceneBody, group: &str, axis: usize, value: f64) -> SceneBody {
+    let axes = if body.model.is_some() { 2 } else { 3 };
+    let mut displacement = vec![None; axes];
+    displacement[axis] = Some(value);
+    body.supports.push(SceneSupport::Group {
+        group: group.to_owned(),
+        displacement,
+    });
+    body
+}
+
+/// A contact of `own` body and group against `other` body and group.
+pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneContact {
+    SceneContact {
+        body: Some(own[0].to_owned()),
+        group: own[1].to_owned(),
+        obstacle: None,
+        against: Some(SceneSurface {
+            body: Some(other[0].to_owned()),
+            group: other[1].to_owned(),
+        }),
+        friction,
+    }
+}
+
+pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scene {
+    Scene {
+        bodies,
+        contacts,
+        ..Scene::default()
+    }
+}
+
+/// Solves a scene that must end certified.
+pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
+    let solution = solve(scene).unwrap();
+    assert_eq!(solution.status(), Status::Certified);
+    let report = solution.report().unwrap();
+    (solution, report)
+}
+
+/// The cells of a group with their nodes and surface groups, as a mesh of its own.
+pub(crate) fn part(mesh: &Mesh, group: &str) -> Mesh {
+    let Group::Cells(cells) = &mesh.groups[group] else {
+        unreachable!("{group} is no group of cells");
+    };
+    let mut number = vec![None; mesh.nodes.len()];
+    let mut part = Mesh::new(mesh.dimension, Vec::new());
+    for &cell in cells {
+        let cell = mesh.cell(cell);
+        let nodes = cell.nodes.iter().map(|&node| {
+            *number[node].get_or_insert_with(|| {
+                part.nodes.push(mesh.nodes[node]);
+                part.nodes.len() - 1
+            })
+        });
+        let nodes: Vec<usize> = nodes.collect();
+        part.push_cell(cell.kind, &nodes);
+    }
+    for (name, group) in &mesh.groups {
+        let Group::Facets(facets) = group else {
+            continue;
+        };
+        let renumbered = facets.iter().filter_map(|facet| {
+            let nodes = facet.nodes.iter().map(|node| number[*node]);
+            let nodes = nodes.collect::<Option<Vec<usize>>>()?;
+            Some(Facet { nodes })
+        });
+        let facets: Vec<Facet> = renumbered.collect();
+        if !facets.is_empty() {
+            part.groups.insert(name.clone(), Group::Facets(facets));
+        }
+    }
+    part
+}
+
+/// The body with one component given at a node of its mesh.
+pub(crate) fn hold_at(mut body: SceneBody, at: [f64; 3], axis: usize, value: f64) -> SceneBody {
+    let axes = if body.model.is_some() { 2 } else { 3 };
+    let mut displacement = vec![None; axes];
+    displacement[axis] = Some(value);
+    body.supports.push(SceneSupport::At {
+        at: at[..axes].to_vec(),
+        displacement,
+    });
+    body
+}
