@@ -161,7 +161,7 @@ proptest! {
                 prop_assert!(!held(factor + margin), "{factor}");
             }
             Limit::Unbounded => prop_assert!(held(1.0) && held(1e3)),
-            // At a degenerate edge the two sides of the limit may not meet to eight digits.
+            // One in some thousands: a load that leaves the edge of what is held along its tangent.
             Limit::Undecided => {}
             // The fixed load alone is held by construction.
             Limit::Never { .. } => prop_assert!(false),

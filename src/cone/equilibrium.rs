@@ -62,8 +62,12 @@ impl RigidContacts {
 
     /// [`admissible`](Self::admissible) for a load that has been checked.
     pub(super) fn decide(&self, load: &[f64]) -> Equilibrium {
+        let impossible = |motion| {
+            let (motion, excess) = self.at_unit_speed(motion, load);
+            Equilibrium::Impossible { motion, excess }
+        };
         if let Some(motion) = self.idle_motion(load) {
-            return self.impossible(motion, load);
+            return impossible(motion);
         }
         let mut moved = self.basis.load(load);
         let size = length(&moved);
@@ -96,7 +100,7 @@ impl RigidContacts {
             }
         }
         match proof {
-            Some((motion, _)) => self.impossible(self.basis.amplitudes(&motion), load),
+            Some((motion, _)) => impossible(self.basis.amplitudes(&motion)),
             None => Equilibrium::Undecided {
                 remainder: search.remainder(),
             },
@@ -110,8 +114,8 @@ impl RigidContacts {
         works.then(|| self.basis.idle_amplitudes(&idle))
     }
 
-    /// The verdict of a motion, brought to unit speed of the contacts, or unit amplitude if none moves.
-    pub(super) fn impossible(&self, mut motion: Vec<f64>, load: &[f64]) -> Equilibrium {
+    /// A motion brought to unit speed of the contacts, or unit amplitude if none moves, and the load's power on it.
+    pub(super) fn at_unit_speed(&self, mut motion: Vec<f64>, load: &[f64]) -> (Vec<f64>, f64) {
         let amplitude = self.basis.largest_amplitude(&motion);
         let mut speed = self.speed(&self.velocity(&motion));
         if speed <= IDLE * amplitude {
@@ -119,7 +123,7 @@ impl RigidContacts {
         }
         motion.iter_mut().for_each(|amplitude| *amplitude /= speed);
         let excess = power(load, &motion);
-        Equilibrium::Impossible { motion, excess }
+        (motion, excess)
     }
 }
 
