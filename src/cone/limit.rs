@@ -164,7 +164,7 @@ mod tests {
                 let pull = blocks.load(&[(0, force([1.0, 0.0], dimension), [0.0; 3])]);
                 let found = contacts.limit(&weight, &pull).unwrap();
                 assert!(
-                    (factor(&found) / expected - 1.0).abs() < 1e-8,
+                    (factor(&found) / expected - 1.0).abs() < 1e-11,
                     "{mu} {found:?}"
                 );
                 let Limit::Finite { motion, .. } = found else {
@@ -207,7 +207,7 @@ mod tests {
             let push = blocks.load(&[(0, [-1.0, 0.0, 0.0], [0.0, 0.2, 0.0])]);
             let found = blocks.contacts().limit(&weight, &push).unwrap();
             assert!(
-                (factor(&found) / expected - 1.0).abs() < 1e-8,
+                (factor(&found) / expected - 1.0).abs() < 1e-11,
                 "{mu} {found:?}"
             );
         }
@@ -226,7 +226,7 @@ mod tests {
             let pull = blocks.load(&[(0, [1.0, 0.0, 0.0], [0.0, 0.2, 0.0])]);
             let found = blocks.contacts().limit(&weight, &pull).unwrap();
             assert!(
-                (factor(&found) / expected - 1.0).abs() < 1e-8,
+                (factor(&found) / expected - 1.0).abs() < 1e-11,
                 "{mu} {found:?}"
             );
             let smooth = wedge(0.0).contacts().limit(&weight, &pull).unwrap();
@@ -245,7 +245,7 @@ mod tests {
                 let found = factor(&pad.contacts().limit(&weight, &pull_load).unwrap());
                 let expected = 3600.0 * size / pull;
                 assert!(
-                    (found / expected - 1.0).abs() < 1e-8,
+                    (found / expected - 1.0).abs() < 1e-11,
                     "{unit} {size} {found:e}"
                 );
             }
@@ -331,7 +331,7 @@ mod tests {
             let push = blocks.load(&[(pushed, [1.0, 0.0, 0.0], centre(pushed))]);
             let found = factor(&blocks.contacts().limit(&weight, &push).unwrap());
             let expected = 0.3 * 2.0 * (bodies - pushed) as f64;
-            assert!((found / expected - 1.0).abs() < 1e-8, "{pushed} {found}");
+            assert!((found / expected - 1.0).abs() < 1e-9, "{pushed} {found}");
         }
     }
 
