@@ -62,8 +62,12 @@ impl RigidContacts {
 
     /// [`admissible`](Self::admissible) for a load that has been checked.
     pub(super) fn decide(&self, load: &[f64]) -> Equilibrium {
+        let impossible = |motion| {
+            let (motion, excess) = self.at_unit_speed(motion, load);
+            Equilibrium::Impossible { motion, excess }
+        };
         if let Some(motion) = self.idle_motion(load) {
-            return self.impossible(motion, load);
+            return impossible(motion);
         }
         let mut moved = self.basis.load(load);
         let size = length(&moved);
@@ -96,7 +100,7 @@ impl RigidContacts {
             }
         }
         match proof {
-            Some((motion, _)) => self.impossible(self.basis.amplitudes(&motion), load),
+            Some((motion, _)) => impossible(self.basis.amplitudes(&motion)),
             None => Equilibrium::Undecided {
                 remainder: search.remainder(),
             },
@@ -110,8 +114,8 @@ impl RigidContacts {
         works.then(|| self.basis.idle_amplitudes(&idle))
     }
 
-    /// The verdict of a motion, brought to unit speed of the contacts, or unit amplitude if none moves.
-    pub(super) fn impossible(&self, mut motion: Vec<f64>, load: &[f64]) -> Equilibrium {
+    /// A motion brought to unit speed of the contacts, or unit amplitude if none moves, and the load's power on it.
+    pub(super) fn at_unit_speed(&self, mut motion: Vec<f64>, load: &[f64]) -> (Vec<f64>, f64) {
         let amplitude = self.basis.largest_amplitude(&motion);
         let mut speed = self.speed(&self.velocity(&motion));
         if speed <= IDLE * amplitude {
@@ -119,7 +123,7 @@ impl RigidContacts {
         }
         motion.iter_mut().for_each(|amplitude| *amplitude /= speed);
         let excess = power(load, &motion);
-        Equilibrium::Impossible { motion, excess }
+        (motion, excess)
     }
 }
 
@@ -173,21 +177,22 @@ mod tests {
     #[test]
     fn a_block_sticks_just_below_the_angle_of_friction_and_slides_just_above() {
         for dimension in [2, 3] {
-            for mu in [1e-3, 0.1, 0.3, 1.0] {
-                let (contacts, weight) = incline(dimension, mu, mu * (1.0 - 1e-6), [2.0, 1.0]);
+            for (mu, margin) in [(1e-3, 1e-6), (0.1, 1e-9), (0.3, 1e-9), (1.0, 1e-9)] {
+                let block = |slope: f64| incline(dimension, mu, slope, [3.0, 1.0]);
+                let (contacts, weight) = block(mu * (1.0 - margin));
                 held(&contacts, &weight);
-                let (contacts, weight) = incline(dimension, mu, mu * (1.0 + 1e-6), [2.0, 1.0]);
+                let slope = mu * (1.0 + margin);
+                let (contacts, weight) = block(slope);
                 let (motion, excess) = impossible(&contacts, &weight);
                 // It slides down the slope and may open as it does: (1, μ).
                 assert!(
-                    (motion[0] - 1.0).abs() < 1e-4 && (motion[1] - mu).abs() < 1e-4,
+                    (motion[0] - 1.0).abs() < 1e-6 && (motion[1] - mu).abs() < 1e-6,
                     "{motion:?}"
                 );
-                // W sin a − μ W cos a.
-                let a = (mu * (1.0 + 1e-6)).atan();
-                let missing = a.sin() - mu * a.cos();
+                // W sin a − μ W cos a, a difference of numbers of order W = 1.
+                let missing = slope.atan().sin() - mu * slope.atan().cos();
                 assert!(
-                    (excess - missing).abs() < 1e-3 * missing + 1e-12,
+                    (excess - missing).abs() < 1e-6 * missing + 1e-14,
                     "{excess:e} {missing:e}"
                 );
             }

@@ -31,7 +31,7 @@ pub struct Impossibility {
 ///
 /// # Errors
 ///
-/// [`Error::Length`] if the arrays do not belong together, [`Error::NotFinite`] for a NaN.
+/// [`Error::Length`] or [`Error::OutOfRange`] if the arrays do not belong together, [`Error::NotFinite`] for a NaN.
 pub fn impossibility(
     offsets: &[usize],
     friction: &[f64],
@@ -40,7 +40,7 @@ pub fn impossibility(
     motion: &[f64],
 ) -> Result<Impossibility, Error> {
     check_length("offsets", friction.len() + 1, offsets.len())?;
-    check_length("modes", offsets[friction.len()], modes.nrows())?;
+    check_blocks(offsets, modes.nrows())?;
     check_length("load", modes.ncols(), load.len())?;
     check_length("motion", modes.ncols(), motion.len())?;
     let velocity: Vec<f64> = (0..modes.nrows())
@@ -66,6 +66,25 @@ pub fn impossibility(
         contact,
         least_reaction,
     })
+}
+
+/// Blocks of one entry or more, from the first row to the last.
+fn check_blocks(offsets: &[usize], rows: usize) -> Result<(), Error> {
+    let starts_late = offsets.first().is_some_and(|&first| first > 0);
+    let empty = offsets.windows(2).position(|block| block[0] >= block[1]);
+    let wrong = if starts_late {
+        Some(0)
+    } else {
+        empty.map(|i| i + 1)
+    };
+    if let Some(wrong) = wrong {
+        return Err(Error::OutOfRange {
+            place: format!("offsets[{wrong}]"),
+            value: offsets[wrong] as f64,
+            accepted: "0 at first, then ever larger",
+        });
+    }
+    check_length("modes", offsets.last().copied().unwrap_or(0), rows)
 }
 
 #[cfg(test)]
@@ -122,5 +141,14 @@ mod tests {
             check(&[f64::NAN; 2], &[1.0, 0.0]),
             Err(Error::NotFinite { .. })
         ));
+        for offsets in [[1, 2], [0, 0], [2, 0]] {
+            let found = impossibility(&offsets, &[0.5], modes.as_ref(), &[1.0; 2], &[1.0; 2]);
+            assert!(
+                matches!(found, Err(Error::OutOfRange { .. })),
+                "{offsets:?}"
+            );
+        }
+        let found = impossibility(&[0, 3], &[0.5], modes.as_ref(), &[1.0; 2], &[1.0; 2]);
+        assert!(matches!(found, Err(Error::Length { .. })));
     }
 }
