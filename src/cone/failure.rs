@@ -31,7 +31,7 @@ impl RigidContacts {
     #[must_use]
     pub fn failure(&self, motion: &[f64]) -> Failure {
         let velocity = self.velocity(motion);
-        let (sliding, opening) = self.sliding_and_opening(&velocity);
+        let (sliding, opening) = self.sliding_and_opening(motion, &velocity);
         let motion = if sliding.is_empty() {
             motion.to_vec()
         } else {

@@ -135,8 +135,9 @@ impl RigidContacts {
 
     /// The speed that counts in a velocity `v = R α`: that of the fastest sliding contact
     /// where one slides, else that of the fastest opening one; zero if none moves.
-    pub(super) fn speed(&self, velocity: &[f64]) -> f64 {
-        let (sliding, opening) = self.sliding_and_opening(velocity);
+    pub(super) fn speed(&self, motion: &[f64]) -> f64 {
+        let velocity = &self.velocity(motion);
+        let (sliding, opening) = self.sliding_and_opening(motion, velocity);
         let fastest = |contacts: &[usize], speed: fn(&[f64]) -> f64| {
             let blocks = contacts
                 .iter()
@@ -151,8 +152,15 @@ impl RigidContacts {
     }
 
     /// Contacts that slide (they open no faster than friction lets them), and contacts that open.
-    pub(super) fn sliding_and_opening(&self, velocity: &[f64]) -> (Vec<usize>, Vec<usize>) {
-        let nothing = MOVES * velocity.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    ///
+    /// What a contact does is measured by the whole motion: smooth contacts that slide see nothing of it.
+    pub(super) fn sliding_and_opening(
+        &self,
+        motion: &[f64],
+        velocity: &[f64],
+    ) -> (Vec<usize>, Vec<usize>) {
+        let whole = self.basis.largest_amplitude(motion);
+        let nothing = MOVES * velocity.iter().fold(whole, |m, v| m.max(v.abs()));
         let (mut sliding, mut opening) = (Vec::new(), Vec::new());
         for (contact, mu) in self.friction.iter().enumerate() {
             let block = self.block(velocity, contact);
