@@ -15,13 +15,11 @@ const HELD_BY_LARGE: f64 = 1e-14;
 /// A load on idle motions below this part of it, or a velocity below this part of an amplitude, is round-off.
 const IDLE: f64 = 1e-11;
 
-/// Round-off in the velocities of a motion of unit size: less resistance is none.
-const RESTING: f64 = 4e-16;
-
 /// A motion that the contacts resist a little proves that an equilibrium would take reactions of at least
-/// work / resistance: beyond this multiple of the load they count as none. (On the edge of a jam
-/// ever less friction is made up for by ever larger reactions.)
+/// work / resistance. Beyond this multiple of the load they count as none at once; beyond the second multiple if
+/// the search finds none. (On the edge of a jam ever less friction is made up for by ever larger reactions.)
 const FAR: f64 = 1e6;
+const TOO_FAR_TO_FIND: f64 = 1e3;
 
 /// Proximal steps; ten are usual, more are for jams.
 const STEPS: usize = 40;
@@ -36,8 +34,9 @@ pub enum Equilibrium {
     },
     /// No admissible reactions hold the load.
     Impossible {
-        /// Rigid motion α that no contact resists while the load works on it. Its fastest sliding
-        /// contact has unit speed; if none slides, the fastest opening one.
+        /// Rigid motion α that no contact resists while the load works on it (or resists so little that only
+        /// reactions thousands of times the load could hold it). Its fastest sliding contact has unit speed; if
+        /// none slides, the fastest opening one.
         motion: Vec<f64>,
         /// Power of the load on this motion: the force that is missing at that contact, in newton.
         excess: f64,
@@ -77,33 +76,28 @@ impl RigidContacts {
         }
         moved.iter_mut().for_each(|e| *e /= size);
         let mut search = Separation::new(self.cones(), self.basis.velocities.as_ref(), &moved);
-        let mut proof: Option<(Vec<f64>, f64)> = None;
+        let (mut proof, mut least) = (Vec::new(), 0.0);
         for _ in 0..STEPS {
             let motion = search.step();
             if search.remainder() <= HELD.max(HELD_BY_LARGE * length(&search.reaction)) {
                 let reaction = search.reaction.iter().map(|t| t * size).collect();
                 return Equilibrium::Held { reaction };
             }
-            let (work, resistance) = search.work_and_resistance(&motion);
-            let resistance = (resistance - RESTING).max(0.0);
-            if work > FAR * resistance {
-                // Steps go on as long as they sharpen the proof.
-                let sharper = proof
-                    .as_ref()
-                    .is_none_or(|(_, last)| resistance < 0.5 * last);
-                if sharper {
-                    proof = Some((motion, resistance));
-                }
-                if !sharper || resistance == 0.0 {
-                    break;
-                }
+            let found = search.least_reaction(&motion);
+            let sharper = found > 2.0 * least;
+            if sharper {
+                (proof, least) = (motion, found);
+            }
+            // Steps go on as long as they sharpen the proof.
+            if least == f64::INFINITY || least > FAR && !sharper {
+                break;
             }
         }
-        match proof {
-            Some((motion, _)) => impossible(self.basis.amplitudes(&motion)),
-            None => Equilibrium::Undecided {
-                remainder: search.remainder(),
-            },
+        if least > TOO_FAR_TO_FIND {
+            return impossible(self.basis.amplitudes(&proof));
+        }
+        Equilibrium::Undecided {
+            remainder: search.remainder(),
         }
     }
 
