@@ -177,8 +177,8 @@ proptest! {
             scaled.contacts().admissible(&load).unwrap()
         };
         // Near a jam ever larger reactions hold the load: the threshold is where they pass what can be
-        // computed and not where they end.
-        let jams = |reaction: &[f64]| largest(reaction) > 1e4 * largest(&load);
+        // found, some thousand times the load as the contacts measure it, and not where they end.
+        let jams = |reaction: &[f64]| largest(reaction) > 1e2 * largest(&load);
         match problem.contacts().least_friction(&load).unwrap() {
             LeastFriction::Multiple { multiple, reaction, .. } => {
                 prop_assert!(multiple <= 1.0 + 1e-6);
