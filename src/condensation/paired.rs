@@ -13,10 +13,9 @@ use std::collections::HashSet;
 
 use nalgebra::Vector3;
 
-use super::facing::Boundary;
 use super::frame::Stance;
 use super::mortar::{self, MortarNode};
-use super::surface::{PairSurface, check_pair_body};
+use super::surface::{Bodies, PairSurface, check_pair_body};
 use super::{ContactNode, ContactPair, OppositeNodes};
 use crate::body::{Body, Facet};
 use crate::error::Error;
@@ -35,14 +34,6 @@ const LEANING: f64 = 0.5;
 struct Side {
     body: usize,
     facets: Vec<Facet>,
-}
-
-/// Bodies of a scene with what is known of each.
-pub(super) struct Bodies<'a> {
-    pub(super) bodies: &'a [Body],
-    pub(super) boundaries: &'a [Boundary<'a>],
-    /// Prescribed displacement per body and degree of freedom.
-    pub(super) prescribed: &'a [Vec<Option<f64>>],
 }
 
 /// The contacts of a pair with the `facets` of body `opposite`.
