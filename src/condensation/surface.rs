@@ -18,7 +18,7 @@ pub struct ContactPair {
     /// Where the scene says so, for messages, such as `contacts[0]`.
     pub place: String,
     /// Index of the body that the pair names first. Its nodes carry the contacts, unless it
-    /// is more than a thousand times as stiff at the surface as the body opposite: then
+    /// is more than a hundred times as stiff at the surface as the body opposite: then
     /// those of that one do. On flat faces either choice is exact for a uniform pressure;
     /// on curved ones the coarser side averages over the other's facets, while the finer
     /// one follows them in its pressures.

@@ -14,7 +14,7 @@ use crate::error::Error;
 #[serde(deny_unknown_fields, expecting = "a contact")]
 pub struct SceneContact {
     /// Group of surface facets; it need only contain the true contact. Its nodes carry the
-    /// contacts, unless it is more than a thousand times as stiff as the other surface.
+    /// contacts, unless it is more than a hundred times as stiff as the other surface.
     pub group: String,
     /// Name of the body; may be left out while there is only one.
     pub body: Option<String>,
