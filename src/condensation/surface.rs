@@ -81,6 +81,10 @@ pub struct ContactNode {
 }
 
 /// The contact nodes in the order of the contact problem, and what was left out.
+///
+/// A node may stand in several pairs, a pair may stand twice, and a face may be the first
+/// side of one pair and the second of another: each time it is a contact of its own. How
+/// such contacts share a force is then not unique; displacements and resultants are.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ContactSurface {
     /// Contact nodes, one per contact.
