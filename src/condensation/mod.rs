@@ -10,7 +10,9 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | where the body may touch what | `obstacle`, `facing`, `frame`, `surface` |
+//! | where the bodies may touch what | `surface`, `frame` |
+//! | a rigid obstacle | `obstacle_contacts`: `obstacle`, `facing` |
+//! | another surface | `paired` |
 //! | what a deformable other side is to the contact nodes (C7)–(C10) | `mortar` |
 //! | the stiffness in the contact's axes (C4) | `frames` |
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
@@ -35,6 +37,7 @@ mod interface;
 mod lattice;
 pub mod mortar;
 pub mod obstacle;
+mod obstacle_contacts;
 pub mod operator;
 mod ordering;
 mod paired;

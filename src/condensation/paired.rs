@@ -13,17 +13,17 @@ use std::collections::HashSet;
 
 use nalgebra::Vector3;
 
-use super::facing::Boundary;
 use super::frame::Stance;
 use super::mortar::{self, MortarNode};
-use super::surface::{PairSurface, check_pair_body};
+use super::surface::{Bodies, PairSurface, check_pair_body};
 use super::{ContactNode, ContactPair, OppositeNodes};
 use crate::body::{Body, Facet};
 use crate::error::Error;
 
-/// Ratio of Young's moduli beyond which the softer side carries the contacts: three digits of
-/// sixteen is what the stiffer one may cost.
-const MUCH_STIFFER: f64 = 1e3;
+/// Ratio of Young's moduli beyond which the softer side carries the contacts: the stiffer one
+/// costs two digits of sixteen there, and from ten times that on, if it is the finer one, also
+/// sweeps by the dozen.
+const MUCH_STIFFER: f64 = 1e2;
 
 /// Weight of the other side's held nodes beyond which it does not move.
 const MOSTLY: f64 = 0.5;
@@ -35,14 +35,6 @@ const LEANING: f64 = 0.5;
 struct Side {
     body: usize,
     facets: Vec<Facet>,
-}
-
-/// Bodies of a scene with what is known of each.
-pub(super) struct Bodies<'a> {
-    pub(super) bodies: &'a [Body],
-    pub(super) boundaries: &'a [Boundary<'a>],
-    /// Prescribed displacement per body and degree of freedom.
-    pub(super) prescribed: &'a [Vec<Option<f64>>],
 }
 
 /// The contacts of a pair with the `facets` of body `opposite`.
@@ -190,4 +182,119 @@ fn across_axes(direction: [f64; 3], axes: [bool; 3]) -> Option<[f64; 3]> {
     }
     let kept = Vector3::from(kept).try_normalize(LEANING)?;
     Some(kept.into())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::samples::{block, facets, hold};
+    use crate::body::{CellKind, prescribed};
+    use crate::condensation::{ContactSurface, Opposite};
+
+    /// Two sample blocks, the second one shifted down to lie below the first, named first.
+    fn stack(kind: CellKind) -> (Vec<Body>, ContactPair) {
+        let (upper, mut lower) = (block(kind), block(kind));
+        let up = kind.dimension() - 1;
+        let heights = lower.mesh.nodes.iter().map(|at| at[up]);
+        let (low, high) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| {
+            (low.min(z), high.max(z))
+        });
+        for at in &mut lower.mesh.nodes {
+            at[up] -= high - low;
+        }
+        let pair = ContactPair {
+            place: "contacts[0]".to_owned(),
+            body: 0,
+            facets: facets(&upper.mesh, "bottom"),
+            opposite: Opposite::Surface {
+                body: 1,
+                facets: facets(&lower.mesh, "top"),
+            },
+            friction: 0.3,
+        };
+        (vec![upper, lower], pair)
+    }
+
+    fn find(bodies: &[Body], pair: &ContactPair) -> ContactSurface {
+        let prescribed: Vec<_> = bodies.iter().map(|b| prescribed(b).unwrap()).collect();
+        ContactSurface::new(bodies, std::slice::from_ref(pair), &prescribed).unwrap()
+    }
+
+    #[test]
+    fn the_side_named_first_carries_the_contacts_unless_it_is_much_stiffer() {
+        for kind in CellKind::ALL {
+            let (mut bodies, pair) = stack(kind);
+            let young = bodies[1].materials[0].young;
+            for (ratio, carrier) in [(1e-9, 0), (99.0, 0), (101.0, 1)] {
+                bodies[0].materials[0].young = ratio * young;
+                let surface = find(&bodies, &pair);
+                assert!(surface.nodes.iter().all(|contact| contact.body == carrier));
+                assert!(surface.facets.iter().all(|(body, _)| *body == carrier));
+                let normal = if carrier == 0 { -1.0 } else { 1.0 };
+                let up = kind.dimension() - 1;
+                assert!(surface.nodes.iter().all(|c| c.frame[0][up] == normal));
+            }
+        }
+    }
+
+    #[test]
+    fn a_tangent_is_held_only_where_supports_hold_both_sides() {
+        for kind in CellKind::ALL {
+            let (mut bodies, pair) = stack(kind);
+            let left = bodies[0].mesh.nodes.iter().map(|at| at[0]);
+            let left = left.fold(f64::INFINITY, f64::min);
+            let kept = |bodies: &[Body]| -> Vec<usize> {
+                let nodes = find(bodies, &pair).nodes.into_iter();
+                let nodes = nodes.filter(|contact| contact.position[0] == left);
+                nodes.map(|contact| contact.tangents).collect()
+            };
+            let all = kind.dimension() - 1;
+            hold(&mut bodies[0], "left", 0);
+            assert!(kept(&bodies).iter().all(|tangents| *tangents == all));
+            hold(&mut bodies[1], "left", 0);
+            assert!(kept(&bodies).iter().all(|tangents| *tangents == all - 1));
+        }
+    }
+
+    #[test]
+    fn at_a_symmetry_plane_the_normal_lies_in_it() {
+        // Both faces rise to the right: at the left end a facet's normal leans out of the plane.
+        for kind in CellKind::ALL {
+            let (mut bodies, pair) = stack(kind);
+            let up = kind.dimension() - 1;
+            for body in &mut bodies {
+                for at in &mut body.mesh.nodes {
+                    at[up] += 0.1 * at[0];
+                }
+                hold(body, "left", 0);
+            }
+            for contact in find(&bodies, &pair).nodes {
+                let leaning = contact.frame[0][0];
+                let on_plane = bodies[0]
+                    .mesh
+                    .nodes
+                    .iter()
+                    .all(|at| at[0] >= contact.position[0]);
+                assert_eq!(leaning == 0.0, on_plane, "{kind:?} {contact:?}");
+                assert!(contact.initial_gap.abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn a_contact_that_nothing_can_move_is_left_out() {
+        for kind in CellKind::ALL {
+            let (mut bodies, pair) = stack(kind);
+            for body in &mut bodies {
+                (0..kind.dimension()).for_each(|axis| hold(body, "left", axis));
+            }
+            let surface = find(&bodies, &pair);
+            assert!(!surface.left_out.is_empty());
+            for (body, node) in &surface.left_out {
+                let own = surface.nodes.iter().filter(|contact| contact.body == *body);
+                assert!(own.clone().all(|contact| contact.node != *node));
+            }
+        }
+    }
 }

@@ -13,7 +13,8 @@ use crate::error::Error;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a contact")]
 pub struct SceneContact {
-    /// Group of surface facets; it need only contain the true contact.
+    /// Group of surface facets; it need only contain the true contact. Its nodes carry the
+    /// contacts, unless it is more than a hundred times as stiff as the other surface.
     pub group: String,
     /// Name of the body; may be left out while there is only one.
     pub body: Option<String>,

@@ -49,7 +49,7 @@ pub struct Scene {
     #[serde(default)]
     pub units: String,
     /// The elastic bodies, all in 2D or all in 3D; names differ.
-    #[schemars(length(min = 1, max = 1))]
+    #[schemars(length(min = 1))]
     pub bodies: Vec<SceneBody>,
     /// Where the bodies may touch obstacles or each other; at least one.
     #[schemars(length(min = 1))]

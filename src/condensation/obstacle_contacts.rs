@@ -1,0 +1,335 @@
+//! The contacts of a pair with a rigid obstacle, one per node of the facets that face it.
+
+use std::collections::HashMap;
+
+use super::frame::Stance;
+use super::surface::{Bodies, PairSurface};
+use super::{ContactNode, ContactPair, Obstacle};
+use crate::body::{Body, Facet, FacetGeometry};
+use crate::error::Error;
+
+/// The contacts of a pair with a rigid obstacle.
+pub(super) fn on_obstacle(
+    scene: &Bodies<'_>,
+    pair: &ContactPair,
+    obstacle: &Obstacle,
+) -> Result<PairSurface, Error> {
+    let (body, boundary) = (&scene.bodies[pair.body], &scene.boundaries[pair.body]);
+    let prescribed = &scene.prescribed[pair.body];
+    let facing = boundary.facing(pair, obstacle)?;
+    let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
+    for (node, area) in areas(body, &facing) {
+        match contact(body, pair, obstacle, node, area, prescribed)? {
+            Some(contact) => contacts.push(contact),
+            None => left_out.push(node),
+        }
+    }
+    boundary.mark_rims(&mut contacts, &pair.facets);
+    Ok(PairSurface {
+        body: pair.body,
+        contacts,
+        facets: facing.into_iter().map(|(facet, _)| facet).collect(),
+        left_out,
+    })
+}
+
+/// Nodes of the facing facets in the order they are met, with their area in m².
+fn areas(body: &Body, facing: &[(Facet, FacetGeometry)]) -> Vec<(usize, f64)> {
+    let depth = body.model.depth();
+    let mut areas: Vec<(usize, f64)> = Vec::new();
+    let mut place_of_node = HashMap::new();
+    for (facet, geometry) in facing {
+        for (&node, weight) in facet.nodes.iter().zip(geometry.weights) {
+            let place = *place_of_node.entry(node).or_insert(areas.len());
+            if place == areas.len() {
+                areas.push((node, 0.0));
+            }
+            areas[place].1 += weight * depth;
+        }
+    }
+    areas
+}
+
+/// The contact of a node; none if a support holds its normal.
+fn contact(
+    body: &Body,
+    pair: &ContactPair,
+    obstacle: &Obstacle,
+    node: usize,
+    area: f64,
+    prescribed: &[Option<f64>],
+) -> Result<Option<ContactNode>, Error> {
+    let dimension = body.mesh.dimension;
+    let position = body.mesh.nodes[node];
+    let closest = obstacle.closest(&pair.place, position)?;
+    let mut held = [None; 3];
+    held[..dimension].copy_from_slice(&prescribed[node * dimension..(node + 1) * dimension]);
+    let stance = Stance::new(dimension, closest.direction, held.map(|u| u.is_some()));
+    let (frame, kept) = match stance {
+        Stance::Held => return Ok(None),
+        Stance::Free { frame, kept } => (frame, kept),
+        Stance::Askew => {
+            return Err(Error::SupportAskew {
+                place: pair.place.clone(),
+                node,
+                position,
+                normal: closest.direction,
+                axes: axes(&held),
+            });
+        }
+    };
+    let moved = held.iter().position(|u| u.is_some_and(|u| u != 0.0));
+    if let (Some(axis), true) = (moved, pair.friction > 0.0) {
+        return Err(Error::DraggedContact {
+            place: pair.place.clone(),
+            node,
+            position,
+            friction: pair.friction,
+            displacement: held[axis].unwrap_or_default(),
+            axis: AXES[axis],
+        });
+    }
+    Ok(Some(ContactNode {
+        body: pair.body,
+        node,
+        opposite: None,
+        pair: 0,
+        position,
+        frame,
+        tangents: if pair.friction == 0.0 { 0 } else { kept },
+        initial_gap: closest.distance,
+        area,
+        rim: false,
+    }))
+}
+
+const AXES: [char; 3] = ['x', 'y', 'z'];
+
+/// The supported axes in words.
+fn axes(held: &[Option<f64>; 3]) -> String {
+    let named = AXES.iter().zip(held).filter(|(_, u)| u.is_some());
+    let named: Vec<String> = named.map(|(axis, _)| axis.to_string()).collect();
+    named.join(" and ")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::samples::{block, facets};
+    use crate::body::{CellKind, Model, Support, prescribed};
+    use crate::condensation::{ContactSurface, Opposite};
+
+    /// A plane below the block, 0.25 m away, and the pair of the named sides with it.
+    fn pair(body: &Body, sides: &[&str]) -> ContactPair {
+        let normal = match body.mesh.dimension {
+            2 => [0.0, 1.0, 0.0],
+            _ => [0.0, 0.0, 1.0],
+        };
+        let point = normal.map(|component| -0.25 * component);
+        let facets = sides.iter().flat_map(|side| facets(&body.mesh, side));
+        ContactPair {
+            place: "contacts[0]".to_owned(),
+            facets: facets.collect(),
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
+            friction: 0.3,
+        }
+    }
+
+    fn find(body: &Body, pairs: &[ContactPair]) -> Result<ContactSurface, Error> {
+        ContactSurface::new(std::slice::from_ref(body), pairs, &[prescribed(body)?])
+    }
+
+    fn hold(body: &mut Body, nodes: &[usize], displacement: [Option<f64>; 3]) {
+        body.supports.push(Support {
+            place: "supports[0]".to_owned(),
+            nodes: nodes.to_vec(),
+            displacement,
+        });
+    }
+
+    /// The node of the block's bottom with the largest x (and the smallest y).
+    fn bottom_right(body: &Body) -> usize {
+        let at = |node: &[f64; 3]| *node == [2.0, 0.0, 0.0];
+        body.mesh.nodes.iter().position(at).unwrap()
+    }
+
+    #[test]
+    fn the_bottom_of_a_block_carries_its_whole_area() {
+        for kind in [
+            CellKind::Tri3,
+            CellKind::Quad4,
+            CellKind::Tet4,
+            CellKind::Hex8,
+        ] {
+            let body = block(kind);
+            let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+            let area: f64 = surface.nodes.iter().map(|contact| contact.area).sum();
+            // 2 m × 1 m, or 2 m × 1 m of depth.
+            assert!((area - 2.0).abs() < 1e-14, "{kind:?} {area}");
+            for contact in &surface.nodes {
+                assert_eq!((contact.initial_gap, contact.rim), (0.25, false));
+                assert_eq!(contact.tangents, kind.dimension() - 1);
+            }
+        }
+    }
+
+    #[test]
+    fn the_area_of_a_plate_counts_its_thickness() {
+        let mut body = block(CellKind::Quad4);
+        body.model = Model::PlaneStress { thickness: 0.01 };
+        let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        let area: f64 = surface.nodes.iter().map(|contact| contact.area).sum();
+        assert!((area - 0.02).abs() < 1e-16);
+    }
+
+    #[test]
+    fn sides_and_back_add_nothing_to_the_assumed_surface() {
+        let body = block(CellKind::Quad4);
+        let alone = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        let grown = pair(&body, &["bottom", "left", "right", "top", "bottom"]);
+        assert_eq!(find(&body, &[grown]).unwrap(), alone);
+    }
+
+    #[test]
+    fn a_surface_that_only_looks_away_is_refused() {
+        let body = block(CellKind::Quad4);
+        let found = find(&body, &[pair(&body, &["top", "left"])]).unwrap_err();
+        let place = "contacts[0]".to_owned();
+        assert_eq!(found, Error::NothingFacesObstacle { place, facets: 6 });
+        let none = find(&body, &[pair(&body, &[])]).unwrap_err();
+        assert!(matches!(
+            none,
+            Error::NothingFacesObstacle { facets: 0, .. }
+        ));
+        let nothing = find(&body, &[]).unwrap_err();
+        assert!(matches!(nothing, Error::EmptyContactSurface { .. }));
+    }
+
+    #[test]
+    fn the_rim_is_where_the_surface_goes_on_smoothly() {
+        let body = block(CellKind::Quad4);
+        let mut part = pair(&body, &["bottom"]);
+        part.facets.truncate(2);
+        let surface = find(&body, &[part]).unwrap();
+        // Two of four facets from the left corner: the corner is no rim, the cut end is.
+        let rims: Vec<_> = surface
+            .nodes
+            .iter()
+            .map(|c| (c.position[0], c.rim))
+            .collect();
+        assert_eq!(rims.iter().filter(|(_, rim)| *rim).count(), 1);
+        let far = rims.iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        assert!(far.1, "{rims:?}");
+    }
+
+    #[test]
+    fn a_node_whose_normal_is_held_is_left_out_and_said_so() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.0), Some(0.0), None]);
+        let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        assert_eq!(
+            (surface.left_out, surface.nodes.len()),
+            (vec![(0, corner)], 4)
+        );
+        let all: Vec<usize> = (0..body.mesh.nodes.len()).collect();
+        hold(&mut body, &all, [None, Some(0.0), None]);
+        let found = find(&body, &[pair(&body, &["bottom"])]).unwrap_err();
+        assert_eq!(
+            found,
+            Error::EmptyContactSurface {
+                pairs: 1,
+                left_out: 5
+            }
+        );
+    }
+
+    #[test]
+    fn a_symmetry_plane_takes_a_tangent_but_not_the_contact() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.0), None, None]);
+        let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        let contact = surface.nodes.iter().find(|c| c.node == corner).unwrap();
+        assert_eq!((contact.tangents, surface.nodes.len()), (0, 5));
+    }
+
+    #[test]
+    fn a_support_may_drag_a_contact_only_without_friction() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.001), None, None]);
+        let mut pair = pair(&body, &["bottom"]);
+        let found = find(&body, std::slice::from_ref(&pair)).unwrap_err();
+        assert!(
+            matches!(found, Error::DraggedContact { axis: 'x', .. }),
+            "{found}"
+        );
+        pair.friction = 0.0;
+        let surface = find(&body, &[pair]).unwrap();
+        assert!(surface.nodes.iter().all(|contact| contact.tangents == 0));
+    }
+
+    #[test]
+    fn a_support_at_an_angle_to_the_normal_is_refused() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.0), None, None]);
+        let mut pair = pair(&body, &["bottom"]);
+        pair.opposite = Opposite::Obstacle(Obstacle::Plane {
+            point: [0.0, -1.0, 0.0],
+            normal: [0.6, 0.8, 0.0],
+        });
+        let found = find(&body, &[pair]).unwrap_err();
+        assert!(found.to_string().contains("supported along x"), "{found}");
+    }
+
+    #[test]
+    fn flawed_pairs_are_refused_with_their_place() {
+        let body = block(CellKind::Quad4);
+        let mut rough = pair(&body, &["bottom"]);
+        rough.friction = -0.1;
+        assert!(
+            find(&body, &[rough.clone()])
+                .unwrap_err()
+                .to_string()
+                .starts_with("contacts[0].friction")
+        );
+        rough.friction = f64::NAN;
+        assert!(
+            find(&body, &[rough])
+                .unwrap_err()
+                .to_string()
+                .starts_with("contacts[0].friction")
+        );
+        let mut inside = pair(&body, &["bottom"]);
+        inside.facets.push(Facet {
+            nodes: vec![0, 999_999],
+        });
+        assert!(
+            find(&body, &[inside])
+                .unwrap_err()
+                .to_string()
+                .starts_with("contacts[0].facets[4]")
+        );
+    }
+
+    #[test]
+    fn the_gap_to_a_cylinder_follows_its_curve() {
+        // Cylinder of radius 2 below the origin: the gap at (x, 0) is √(x² + 4) − 2.
+        let body = block(CellKind::Quad4);
+        let mut round = pair(&body, &["bottom"]);
+        round.opposite = Opposite::Obstacle(Obstacle::Cylinder {
+            center: [0.0, -2.0, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            radius: 2.0,
+        });
+        for contact in find(&body, &[round]).unwrap().nodes {
+            let x = contact.position[0];
+            assert!((contact.initial_gap - (x.hypot(2.0) - 2.0)).abs() < 1e-15);
+            assert!((contact.frame[0][0] + x / x.hypot(2.0)).abs() < 1e-15);
+        }
+    }
+}
