@@ -86,6 +86,7 @@ impl Row {
             tangents: 1,
             initial_gap,
             area,
+            second: false,
             rim: node == 0,
         };
         let surface = ContactSurface {

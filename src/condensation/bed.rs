@@ -96,6 +96,7 @@ impl Bed {
                 tangents: if friction { kept } else { 0 },
                 initial_gap: 0.0,
                 area: 1.0,
+                second: false,
                 rim: false,
             });
         }

@@ -99,6 +99,7 @@ fn contact(
         tangents: if pair.friction == 0.0 { 0 } else { kept },
         initial_gap: closest.distance,
         area,
+        second: false,
         rim: false,
     }))
 }

@@ -65,9 +65,9 @@ pub(super) fn between_surfaces(
     refuse_common_facets(&first, &second, &place)?;
     let stiffer = softest(scene.bodies, &first) > MUCH_STIFFER * softest(scene.bodies, &second);
     if stiffer {
-        contacts(scene, pair, &second, &first)
+        contacts(scene, pair, &second, &first, true)
     } else {
-        contacts(scene, pair, &first, &second)
+        contacts(scene, pair, &first, &second, false)
     }
 }
 
@@ -101,12 +101,13 @@ fn softest(bodies: &[Body], side: &Side) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The contacts at the nodes of `own`.
+/// The contacts at the nodes of `own`, which is the pair's `second` surface or its first.
 fn contacts(
     scene: &Bodies<'_>,
     pair: &ContactPair,
     own: &Side,
     other: &Side,
+    second: bool,
 ) -> Result<PairSurface, Error> {
     let (body, across) = (&scene.bodies[own.body], &scene.bodies[other.body]);
     let dimension = body.mesh.dimension;
@@ -144,6 +145,7 @@ fn contacts(
             tangents: if pair.friction == 0.0 { 0 } else { kept },
             initial_gap: node.initial_gap,
             area: node.weight * body.model.depth(),
+            second,
             rim: false,
         });
     }

@@ -76,6 +76,8 @@ pub struct ContactNode {
     pub initial_gap: f64,
     /// Tributary area, in m² (2D: m² for the body's depth).
     pub area: f64,
+    /// It stands on the second surface of its pair, which is much the softer one.
+    pub second: bool,
     /// The body's surface goes on beyond the assumed contact surface here.
     pub rim: bool,
 }

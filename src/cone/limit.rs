@@ -21,8 +21,9 @@ use crate::error::Error;
 /// Bounds that are tried; five are usual.
 const BOUNDS: usize = 40;
 
-/// Distance from a bound to the factor that is tried below it, relative to that at which the loads are of one size.
-const RETREAT: f64 = 1e-10;
+/// Distance from a bound to the factor that is tried below it, relative to that at which the loads are of one size:
+/// at first, and the largest after having been doubled where round-off hides whether the bound is held.
+const RETREAT: (f64, f64) = (1e-10, 1e-7);
 
 /// How far a load can grow.
 #[derive(Clone, Debug, PartialEq)]
@@ -79,9 +80,9 @@ impl RigidContacts {
         let bound = |motion: &[f64]| -power(fixed, motion) / power(growing, motion);
         let mut factor = bound(&motion);
         let balance = self.basis.load_size(fixed) / self.basis.load_size(growing);
-        let below = |factor: f64| factor - RETREAT * factor.max(balance);
+        let mut retreat = RETREAT.0;
         for _ in 0..BOUNDS {
-            if !factor.is_finite() {
+            if !factor.is_finite() || retreat > RETREAT.1 {
                 break;
             }
             factor = factor.max(0.0);
@@ -95,11 +96,14 @@ impl RigidContacts {
                     };
                 }
                 Equilibrium::Impossible { motion: next, .. } => {
-                    factor = bound(&next).min(below(factor));
+                    let below = factor - retreat * factor.max(balance);
+                    factor = bound(&next).min(below);
                     motion = next;
                 }
-                // Round-off hides whether the bound itself is held.
-                Equilibrium::Undecided { .. } => factor = below(factor),
+                Equilibrium::Undecided { .. } => {
+                    factor -= retreat * factor.max(balance);
+                    retreat *= 2.0;
+                }
             }
         }
         Limit::Undecided

@@ -15,7 +15,7 @@ use crate::cone::{CoulombProgram, Equilibrium, RigidContacts};
 use crate::kkt;
 
 /// The judge believes a failing motion that would take reactions of more than this times the load.
-const IMPOSSIBLE: f64 = 1e6;
+const IMPOSSIBLE: f64 = 1e3;
 
 /// Tolerance of the first program, and the tightest.
 const TOLERANCE: (f64, f64) = (1e-8, 1e-13);

@@ -137,6 +137,7 @@ mod tests {
                 tangents: 0,
                 initial_gap: 0.5,
                 area: 1.0,
+                second: false,
                 rim: false,
             };
             let operator = Operator::from_compliance(mat![[0.25]]).unwrap();

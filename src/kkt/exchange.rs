@@ -17,9 +17,9 @@ use crate::error::Error;
 /// Sum of the contact forces of a pair on either side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exchange {
-    /// What the bodies receive whose nodes carry the contacts.
+    /// What the pair's first surface receives.
     pub own: Resultant,
-    /// What the opposite body receives; none if that is a rigid obstacle.
+    /// What its second surface receives; none if that is a rigid obstacle.
     pub opposite: Option<Resultant>,
     /// Length of the sum of both forces; zero for a rigid obstacle.
     pub force_defect: Defect,
@@ -66,7 +66,7 @@ pub fn exchange(
         for (k, share) in shares(contact).enumerate() {
             let position = bodies[share.body].mesh.nodes[share.node];
             let received = force.map(|f| share.weight * f);
-            sums.add(k == 0, position, received);
+            sums.add((k == 0) != contact.second, position, received);
         }
     }
     let sums = sums.into_iter().zip(pairs);

@@ -26,6 +26,7 @@ pub(super) fn lid_on_box(gap: f64) -> (Vec<Body>, ContactSurface, ContactProblem
         tangents: 1,
         initial_gap: gap,
         area: 1.0,
+        second: false,
         rim: false,
     };
     let surface = ContactSurface {

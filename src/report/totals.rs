@@ -8,7 +8,7 @@ use super::contacts::ContactForce;
 use crate::condensation::ContactNode;
 use crate::kkt::{self, ContactStatus};
 
-/// Totals over contacts; vectors in global axes, forces act on the contact's own body.
+/// Totals over contacts; vectors in global axes, forces act on the first surface of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Totals {
     /// Contacts without reaction.
@@ -123,10 +123,12 @@ impl Sums {
             }
         }
         self.normal += force.pressing;
+        let sign = if contact.second { -1.0 } else { 1.0 };
         for (sum, friction) in self.friction.iter_mut().zip(force.friction) {
-            *sum += friction;
+            *sum += sign * friction;
         }
-        self.contact.add(contact.position, force.total);
+        let total = force.total.map(|f| sign * f);
+        self.contact.add(contact.position, total);
         if contact.area > 0.0 {
             self.peak_pressure = self.peak_pressure.max(force.pressing / contact.area);
         }
