@@ -238,6 +238,83 @@ fn a_closed_crack_that_sticks_is_as_if_it_were_not_there() {
     }
 }
 
+/// Two arms of length 2 and height 1 on each other, joined by a spine at their right end: groups
+/// `upper` and `lower` for the faces of the slit, whose cells do not match, and the rest `outside`.
+fn clip(kind: CellKind, cells: [usize; 2]) -> Mesh {
+    let heights = [[0.0, 0.5, 1.0], [1.0, 1.4, 2.0]];
+    let spine = [2.0, 2.4, 2.5];
+    let mut mesh = Mesh::new(2, Vec::new());
+    let mut number_of = std::collections::HashMap::new();
+    for (arm, (ys, count)) in heights.iter().zip(cells).enumerate() {
+        let mut xs = graded(0.0, 2.0, count, 1.0).unwrap();
+        xs.extend(&spine[1..]);
+        let part = rectangle(&xs, ys, kind).unwrap();
+        let mut number = |at: [f64; 3]| {
+            // The faces of the slit have nodes of their own up to its end.
+            let side = if at[0] < 2.0 { arm } else { 0 };
+            let bits = [at[0].to_bits(), at[1].to_bits()];
+            *number_of.entry((bits, side)).or_insert_with(|| {
+                mesh.nodes.push(at);
+                mesh.nodes.len() - 1
+            })
+        };
+        let numbers: Vec<usize> = part.nodes.iter().map(|at| number(*at)).collect();
+        for cell in part.cells() {
+            let nodes = cell.nodes.iter().map(|node| numbers[*node]);
+            mesh.push_cell(cell.kind, &nodes.collect::<Vec<_>>());
+        }
+    }
+    let in_slit = |facet: &Facet| facet.nodes.iter().all(|node| mesh.nodes[*node][1] == 1.0);
+    let (slit, outside): (Vec<_>, Vec<_>) = mesh.boundary_facets().into_iter().partition(in_slit);
+    let up = |facet: &Facet| mesh.facet_geometry(facet).normal[1] > 0.0;
+    let (lower, upper): (Vec<_>, Vec<_>) = slit.into_iter().partition(up);
+    let groups = [("upper", upper), ("lower", lower), ("outside", outside)];
+    let groups = groups.map(|(name, facets)| (name.to_owned(), Group::Facets(facets)));
+    mesh.groups.extend(groups);
+    mesh
+}
+
+#[test]
+fn a_slit_whose_faces_do_not_match_carries_a_uniform_pressure() {
+    // The outside moves as under a pressure of 1 along y, in plane strain; the faces of the slit
+    // have a node in common where it ends.
+    let (young, poisson) = (1000.0, 0.3);
+    let [down, across] = [
+        (1.0 - poisson * poisson) / young,
+        poisson * (1.0 + poisson) / young,
+    ];
+    for kind in [CellKind::Quad4, CellKind::Tri3] {
+        for cells in [[5, 8], [8, 5], [3, 4], [6, 6]] {
+            for [own, other] in [["upper", "lower"], ["lower", "upper"]] {
+                let mesh = clip(kind, cells);
+                let Group::Facets(outside) = &mesh.groups["outside"] else {
+                    unreachable!();
+                };
+                let mut held: Vec<usize> = outside.iter().flat_map(|f| f.nodes.clone()).collect();
+                held.sort_unstable();
+                held.dedup();
+                // The left ends of the two faces stand at one place: they stay free.
+                held.retain(|node| mesh.nodes[*node][..2] != [0.0, 1.0]);
+                let mut clip = body("clip", mesh.clone(), young, poisson);
+                for at in held.into_iter().map(|node| mesh.nodes[node]) {
+                    clip = hold_at(clip, at, 0, across * at[0]);
+                    clip = hold_at(clip, at, 1, -down * at[1]);
+                }
+                for friction in [0.0, 0.3] {
+                    let pair = contact(["clip", own], ["clip", other], friction);
+                    let (solution, report) = certified(&scene(vec![clip.clone()], vec![pair]));
+                    check_pressure(&report.contacts, 1.0, 1e-10);
+                    let nodal = solution.displacements()[0].chunks(2);
+                    for (at, u) in mesh.nodes.iter().zip(nodal) {
+                        let off = (u[0] - across * at[0]).hypot(u[1] + down * at[1]);
+                        assert!(off < 1e-13, "{at:?} {u:?}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 /// Two blocks pressed askew with friction: some contacts open, some stick, some slip.
 fn askew(kind: CellKind, pairs: &[SceneContact]) -> Scene {
     let up = kind.dimension() - 1;

@@ -83,7 +83,10 @@ pub fn couple(
     for share in gathered.shares {
         let node = share.contact(mesh1, mesh2, place)?;
         // A node that both faces share, as at the tip of a crack, has nothing to touch.
-        let itself = |node: &MortarNode| same_mesh && node.opposite == [(node.node, 1.0)];
+        let itself = |node: &MortarNode| {
+            let mut others = node.opposite.iter().filter(|entry| entry.0 != node.node);
+            same_mesh && others.all(|(_, weight)| weight.abs() < NEGLIGIBLE.sqrt())
+        };
         mortar.nodes.extend(node.filter(|node| !itself(node)));
     }
     if mortar.nodes.is_empty() {
