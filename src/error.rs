@@ -324,15 +324,6 @@ pub enum Error {
         values: [f64; 2],
     },
 
-    /// The supports leave a rigid motion free.
-    #[error("{body}: the supports leave a rigid motion free: {motion}; expected none")]
-    FreeMotion {
-        /// Name of the body.
-        body: String,
-        /// The motion in words.
-        motion: String,
-    },
-
     /// A file could not be written.
     #[error("{path}: cannot be written: {reason}")]
     Write {

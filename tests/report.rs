@@ -338,6 +338,7 @@ fn names_of_the_report_are_stable() {
     assert_eq!(json["certificate"]["bodies"][0]["name"], "row");
     let work = [
         "cone_iterations",
+        "coulomb_programs",
         "factorisations",
         "friction_program_contacts",
         "friction_programs",

@@ -12,7 +12,7 @@ const FLAT: f64 = 1e-10;
 
 /// Checks that the body can be assembled: mesh, materials, supports and loads.
 ///
-/// That its supports hold it is a matter of [`free_motion`](super::free_motion()), that they
+/// What its supports leave free is a matter of [`free_modes`](super::free_modes()), that they
 /// do not contradict each other one of [`prescribed`](super::prescribed()).
 ///
 /// # Errors

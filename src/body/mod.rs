@@ -10,7 +10,7 @@
 //! (B8)  mean of u_j · u_k = δ_jk                  what they leave free          rigid_modes.rs
 //! ```
 //!
-//! In order: [`check`](check()), [`prescribed`], [`free_motion`], then [`stiffness`](stiffness())
+//! In order: [`check`](check()), [`prescribed`], [`free_modes`], then [`stiffness`](stiffness())
 //! and [`load_vector`], and [`cell_stress`] of the displacement found.
 //!
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
@@ -47,7 +47,6 @@ pub use fixing::fixing_dofs;
 pub use load::load_vector;
 pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
-pub use rigid::{RigidMotion, free_motion};
 pub use rigid_modes::{FreeModes, RigidMode, free_modes};
 pub use stiffness::stiffness;
 pub use stress::{cell_stress, nodal_stress, von_mises};

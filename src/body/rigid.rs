@@ -9,8 +9,6 @@
 //! rank is found from these rows, by orthogonalising the largest remainder first, and not
 //! from pivots of the stiffness matrix: it does not depend on materials, refinement or units.
 
-use std::fmt;
-
 use nalgebra::{SVector, Vector3};
 
 use super::Body;
@@ -21,36 +19,6 @@ const SMALLEST_ARM: f64 = 1e-6;
 
 /// `(a, ω L)`.
 pub(super) type Motion = SVector<f64, 6>;
-
-/// A rigid motion of a body, or of one of its unconnected parts.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RigidMotion {
-    /// Unit vector along the translation, or along the axis of rotation.
-    pub direction: [f64; 3],
-    /// A point of the axis of rotation, in metre; `None` for a translation.
-    pub through: Option<[f64; 3]>,
-    /// Advance along the axis, in metre per radian; zero for a pure rotation.
-    pub pitch: f64,
-    /// Centre of the moving part, in metre, if the body has more than one.
-    pub part: Option<[f64; 3]>,
-}
-
-/// A rigid motion that the prescribed components (as from
-/// [`prescribed`](super::prescribed())) leave free, if there is one.
-///
-/// Every part of the mesh that shares no node with the rest has to be held on its own. A
-/// part counts as one rigid body, also where a single node joins two pieces like a hinge.
-/// The body has passed [`check`](super::check()).
-#[must_use]
-pub fn free_motion(body: &Body, prescribed: &[Option<f64>]) -> Option<RigidMotion> {
-    let parts = parts(body);
-    let several = parts.len() > 1;
-    parts.iter().find_map(|nodes| {
-        let part = Part::new(body, nodes);
-        let motion = part.free_motion(nodes, prescribed)?;
-        Some(part.describe(motion, several))
-    })
-}
 
 /// Nodes of each connected part, by joining the nodes of every cell.
 pub(super) fn parts(body: &Body) -> Vec<Vec<usize>> {
@@ -100,27 +68,6 @@ impl<'a> Part<'a> {
         Self { body, centre, size }
     }
 
-    /// A motion that no row holds; a translation or a rotation about a global axis if there is one.
-    fn free_motion(&self, nodes: &[usize], prescribed: &[Option<f64>]) -> Option<Motion> {
-        let held = self.held(nodes, prescribed);
-        held.free()?;
-        // Holding all but one translation, or all but one rotation, leaves that one or nothing.
-        const OTHERS: [&[usize]; 6] = [
-            &[1, 2, 3, 4, 5],
-            &[0, 2, 3, 4, 5],
-            &[0, 1, 3, 4, 5],
-            &[3, 4],
-            &[4, 5],
-            &[3, 5],
-        ];
-        let along_an_axis = OTHERS.iter().find_map(|others| {
-            let mut candidate = held.clone();
-            candidate.hold(&others.iter().map(|index| unit(*index)).collect::<Vec<_>>());
-            candidate.free()
-        });
-        along_an_axis.or_else(|| held.free())
-    }
-
     /// All motions that no row holds, as a basis: motions along and about the global axes first.
     pub(super) fn free_basis(&self, nodes: &[usize], prescribed: &[Option<f64>]) -> Vec<Motion> {
         let held = self.held(nodes, prescribed);
@@ -166,38 +113,6 @@ impl<'a> Part<'a> {
         }
         rows
     }
-
-    fn describe(&self, motion: Motion, several: bool) -> RigidMotion {
-        let (translation, rotation) = self.split(motion);
-        let part = several.then(|| self.centre.into());
-        if rotation.norm() * self.size < SMALLEST_ARM {
-            return RigidMotion {
-                direction: upward(translation.normalize()).into(),
-                through: None,
-                pitch: 0.0,
-                part,
-            };
-        }
-        let arm = rotation.cross(&translation) / rotation.norm_squared();
-        let pitch = translation.dot(&rotation) / rotation.norm_squared();
-        let noise = SMALLEST_ARM * self.size;
-        let through = (self.centre + arm).map(|x| if x.abs() < noise { 0.0 } else { x });
-        RigidMotion {
-            direction: upward(rotation.normalize()).into(),
-            through: Some(through.into()),
-            pitch: if pitch.abs() < noise { 0.0 } else { pitch },
-            part,
-        }
-    }
-}
-
-/// Of a direction and its opposite, the one whose largest component is positive.
-fn upward(direction: Vector3<f64>) -> Vector3<f64> {
-    if direction[direction.iamax()] < 0.0 {
-        -direction
-    } else {
-        direction
-    }
 }
 
 fn unit(index: usize) -> Motion {
@@ -232,52 +147,14 @@ impl Held {
                 .fold(left, |left, held| left - held * held.dot(&left))
         })
     }
-
-    /// A unit motion that is not held, if there is one.
-    fn free(&self) -> Option<Motion> {
-        if self.basis.len() == 6 {
-            return None;
-        }
-        let candidates = (0..6).map(|index| self.remainder(unit(index)));
-        let largest = candidates.max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
-        largest.try_normalize(SMALLEST_ARM)
-    }
-}
-
-impl fmt::Display for RigidMotion {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let [x, y, z] = self.direction;
-        let named = [("x", x), ("y", y), ("z", z)];
-        let axis = match named.iter().find(|(_, share)| *share > 1.0 - SMALLEST_ARM) {
-            Some((name, _)) => (*name).to_owned(),
-            None => format!("({x:.4}, {y:.4}, {z:.4})"),
-        };
-        match self.through {
-            None => write!(out, "translation along {axis}")?,
-            Some([x, y, z]) => {
-                write!(
-                    out,
-                    "rotation about {axis} through ({x:.6}, {y:.6}, {z:.6}) m"
-                )?;
-            }
-        }
-        if self.pitch != 0.0 {
-            write!(out, ", advancing {:.6} m per radian", self.pitch)?;
-        }
-        match self.part {
-            Some([x, y, z]) => write!(out, ", of the part around ({x:.6}, {y:.6}, {z:.6}) m"),
-            None => Ok(()),
-        }
-    }
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
 
-    use super::*;
     use crate::body::samples::{block, body};
-    use crate::body::{CellKind, Mesh, Model, Support, prescribed};
+    use crate::body::{Body, CellKind, Mesh, Model, RigidMode, Support, free_modes, prescribed};
 
     fn support(nodes: &[usize], axes: &[usize]) -> Support {
         let mut displacement = [None; 3];
@@ -291,9 +168,20 @@ mod tests {
         }
     }
 
-    fn sentence(body: &Body) -> Option<String> {
-        let motion = free_motion(body, &prescribed(body).unwrap());
-        motion.map(|motion| motion.to_string())
+    fn modes(body: &Body) -> Vec<RigidMode> {
+        free_modes(body, &prescribed(body).unwrap()).modes
+    }
+
+    /// The one free motion of a body, which turns it about a line through both points.
+    fn assert_turns_about(body: &Body, points: [[f64; 3]; 2]) {
+        let found = modes(body);
+        assert_eq!(found.len(), 1, "{found:?}");
+        for point in points {
+            assert!(
+                found[0].displacement(point).iter().all(|u| u.abs() < 1e-9),
+                "{found:?}"
+            );
+        }
     }
 
     /// One hexahedron of edge 2 between −1 and 1.
@@ -306,37 +194,24 @@ mod tests {
     }
 
     #[test]
-    fn a_body_without_supports_translates() {
-        assert_eq!(sentence(&cube()).unwrap(), "translation along x");
-    }
-
-    #[test]
-    fn rollers_on_one_face_leave_the_plane_free() {
+    fn every_support_takes_a_motion_until_none_is_left() {
         let mut body = cube();
+        assert_eq!(modes(&body).len(), 6);
         body.supports = vec![support(&[0, 1, 2, 3], &[2])];
-        assert_eq!(sentence(&body).unwrap(), "translation along x");
-        body.supports.push(support(&[0], &[0]));
-        assert_eq!(sentence(&body).unwrap(), "translation along y");
-        body.supports.push(support(&[0], &[1]));
+        assert_eq!(modes(&body).len(), 3);
+        body.supports.push(support(&[0], &[0, 1]));
         // Pinned at corner (−1, −1, −1) and kept level: it turns about the vertical there.
-        assert_eq!(
-            sentence(&body).unwrap(),
-            "rotation about z through (-1.000000, -1.000000, 0.000000) m"
-        );
+        assert_turns_about(&body, [[-1.0, -1.0, -1.0], [-1.0, -1.0, 5.0]]);
         body.supports.push(support(&[1], &[1]));
-        assert_eq!(sentence(&body), None);
+        assert!(modes(&body).is_empty());
     }
 
     #[test]
     fn two_pinned_nodes_are_a_hinge_about_their_line() {
-        // Nodes 0 and 2 at (∓1, ∓1, −1): the line along (1, 1, 0)/√2.
+        // Nodes 0 and 2 at (∓1, ∓1, −1).
         let mut body = cube();
         body.supports = vec![support(&[0, 2], &[0, 1, 2])];
-        let motion = free_motion(&body, &prescribed(&body).unwrap()).unwrap();
-        let half = 0.5_f64.sqrt();
-        let close = |a: [f64; 3], b: [f64; 3]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12);
-        assert!(close(motion.direction, [half, half, 0.0]), "{motion}");
-        assert!(close(motion.through.unwrap(), [0.0, 0.0, -1.0]) && motion.pitch == 0.0);
+        assert_turns_about(&body, [[-1.0, -1.0, -1.0], [1.0, 1.0, -1.0]]);
     }
 
     #[test]
@@ -344,31 +219,9 @@ mod tests {
         // Plane body held at (0, 0) along x and at (2, 0) along x and y: all lines pass (2, 0).
         let mut body = block(CellKind::Quad4);
         body.supports = vec![support(&[0], &[0]), support(&[4], &[0, 1])];
-        assert_eq!(
-            sentence(&body).unwrap(),
-            "rotation about z through (2.000000, 0.000000, 0.000000) m"
-        );
+        assert_turns_about(&body, [[2.0, 0.0, 0.0], [2.0, 0.0, 1.0]]);
         body.supports = vec![support(&[0], &[1]), support(&[4], &[0, 1])];
-        assert_eq!(sentence(&body), None);
-    }
-
-    #[test]
-    fn every_part_has_to_be_held() {
-        let mut body = block(CellKind::Tri3);
-        let first = body.mesh.nodes.len();
-        for x in [[5.0, 5.0, 0.0], [6.0, 5.0, 0.0], [5.0, 8.0, 0.0]] {
-            body.mesh.nodes.push(x);
-        }
-        body.mesh
-            .push_cell(CellKind::Tri3, &[first, first + 1, first + 2]);
-        body.supports = vec![support(&[0, 4], &[0, 1]), support(&[first], &[0, 1])];
-        assert_eq!(
-            sentence(&body).unwrap(),
-            "rotation about z through (5.000000, 5.000000, 0.000000) m, \
-             of the part around (5.333333, 6.000000, 0.000000) m"
-        );
-        body.supports.push(support(&[first + 1], &[1]));
-        assert_eq!(sentence(&body), None);
+        assert!(modes(&body).is_empty());
     }
 
     #[test]
@@ -379,9 +232,9 @@ mod tests {
                 *x = size * (*x + 1000.0);
             }
             body.supports = vec![support(&[0, 1, 2, 3], &[2]), support(&[0], &[0, 1])];
-            assert!(sentence(&body).unwrap().starts_with("rotation about z"));
+            assert_eq!(modes(&body).len(), 1);
             body.supports.push(support(&[1], &[1]));
-            assert_eq!(sentence(&body), None);
+            assert!(modes(&body).is_empty());
         }
     }
 }
