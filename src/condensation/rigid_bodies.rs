@@ -179,3 +179,79 @@ pub(super) fn part_motions(
     }
     parts.into_iter().map(|(_, part)| part).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::CellKind;
+    use crate::body::samples::{block, facets};
+    use crate::condensation::{Obstacle, Opposite};
+
+    /// The block of 2 × 1 m (2D) on a floor, free.
+    fn loose() -> (Body, RigidBodies) {
+        let body = block(CellKind::Quad4);
+        let pair = ContactPair {
+            place: "contacts[0]".to_owned(),
+            body: 0,
+            facets: facets(&body.mesh, "bottom"),
+            opposite: Opposite::Obstacle(Obstacle::Plane {
+                point: [0.0; 3],
+                normal: [0.0, 1.0, 0.0],
+            }),
+            friction: 0.5,
+        };
+        let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair]).unwrap();
+        (body, rigid)
+    }
+
+    #[test]
+    fn modes_at_the_contacts_are_the_motions_of_their_nodes() {
+        let (_, rigid) = loose();
+        let modes = rigid.modes();
+        assert_eq!(
+            (modes.nrows(), modes.ncols()),
+            (2 * rigid.surface().nodes.len(), 3)
+        );
+        for k in 0..3 {
+            let motion: Vec<f64> = (0..3).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
+            let part = rigid.motions(&motion)[0];
+            for (i, contact) in rigid.surface().nodes.iter().enumerate() {
+                // u = a + ω × (x − c), along the normal and the tangent.
+                let arm = [
+                    contact.position[0] - part.centre[0],
+                    contact.position[1] - part.centre[1],
+                ];
+                let u = [
+                    part.translation[0] - part.rotation[2] * arm[1],
+                    part.translation[1] + part.rotation[2] * arm[0],
+                ];
+                for row in 0..2 {
+                    let along = contact.frame[row][0] * u[0] + contact.frame[row][1] * u[1];
+                    assert!((modes[(2 * i + row, k)] - along).abs() < 1e-13);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_load_works_on_a_motion_as_its_resultant_does() {
+        // 5 N along x at the node (2, 0): the work of any motion is 5 N times its u_x there.
+        let (body, rigid) = loose();
+        let node = body
+            .mesh
+            .nodes
+            .iter()
+            .position(|x| *x == [2.0, 0.0, 0.0])
+            .unwrap();
+        let mut forces = vec![0.0; 2 * body.mesh.nodes.len()];
+        forces[2 * node] = 5.0;
+        let works = rigid.load(&[forces]);
+        for (k, work) in works.iter().enumerate() {
+            let motion: Vec<f64> = (0..3).map(|j| if j == k { 1.0 } else { 0.0 }).collect();
+            let part = rigid.motions(&motion)[0];
+            let u_x = part.translation[0] + part.rotation[2] * part.centre[1];
+            assert!((work - 5.0 * u_x).abs() < 1e-13);
+        }
+    }
+}

@@ -100,3 +100,64 @@ fn pseudo_inverse(matrix: &Mat<f64>) -> Option<Mat<f64>> {
     }
     Some(inverse)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::Operator;
+    use faer::mat;
+
+    /// Two smooth contacts of compliance ½ and ¼ m/N under a rigid lid that sinks by α and
+    /// tilts by β: u = G t + (α + β, α − β). It carries 6 N and 2 N on the modes.
+    fn lid() -> ContactProblem {
+        let operator = Operator::from_compliance(mat![[0.5, 0.0], [0.0, 0.25]]).unwrap();
+        let problem =
+            ContactProblem::new(&[0, 0], vec![0.0; 2], vec![0.0; 2], vec![0.0; 2], operator);
+        let modes = mat![[1.0, 1.0], [1.0, -1.0]];
+        let floating = Floating::new(modes, vec![6.0, 2.0]).unwrap();
+        problem.unwrap().float(floating).unwrap()
+    }
+
+    #[test]
+    fn a_rigid_motion_meets_no_stiffness() {
+        let problem = lid();
+        let stiffness = Stiffness::new(&problem).unwrap();
+        // As many modes as contacts: statics alone decides, and nothing of S = (2, 4) is left.
+        assert!(stiffness.matrix.norm_max() < 1e-14);
+    }
+
+    #[test]
+    fn a_reaction_is_corrected_into_equilibrium() {
+        // t_1 + t_2 + 6 = 0 and t_1 − t_2 + 2 = 0.
+        let problem = lid();
+        let stiffness = Stiffness::new(&problem).unwrap();
+        let found = stiffness.balanced(&[-1.0, 5.0]);
+        assert!(
+            (found[0] + 4.0).abs() < 1e-14 && (found[1] + 2.0).abs() < 1e-14,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn the_lid_follows_its_contacts() {
+        // From t in equilibrium, u stays closed: δu = −G t = (2, ½) is all rigid, α + β = 2, α − β = ½.
+        let problem = lid();
+        let stiffness = Stiffness::new(&problem).unwrap();
+        let moved = stiffness.motion(&[2.0, 0.5], &[-4.0, -2.0]);
+        assert!(
+            (moved[0] - 1.25).abs() < 1e-14 && (moved[1] - 0.75).abs() < 1e-14,
+            "{moved:?}"
+        );
+    }
+
+    #[test]
+    fn a_motion_that_no_contact_feels_stays_at_rest() {
+        let operator = Operator::from_compliance(mat![[0.5]]).unwrap();
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![0.0], vec![0.0], operator).unwrap();
+        let floating = Floating::new(mat![[1.0, 0.0]], vec![3.0, 0.0]).unwrap();
+        let problem = problem.float(floating).unwrap();
+        let moved = Stiffness::new(&problem).unwrap().motion(&[1.0], &[-3.0]);
+        assert_eq!(moved, [1.0, 0.0]);
+    }
+}

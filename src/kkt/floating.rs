@@ -23,3 +23,24 @@ pub(super) fn unanswered(modes: MatRef<'_, f64>, load: &[f64], reaction: &[f64])
     }
     Defect::over(largest(&left), largest(&total))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faer::mat;
+
+    #[test]
+    fn what_reactions_leave_of_a_load_is_measured_against_all_forces() {
+        // A lid on two contacts, sinking and tilting: −4 − 2 + 6 = 0, −4 + 2 + 3 = 1 of 4 + 2 + 6.
+        let modes = mat![[1.0, 1.0], [1.0, -1.0]];
+        let found = unanswered(modes.as_ref(), &[6.0, 3.0], &[-4.0, -2.0]);
+        assert_eq!((found.value, found.scaled), (1.0, 1.0 / 12.0));
+    }
+
+    #[test]
+    fn nothing_to_answer_is_answered() {
+        let modes = mat![[1.0], [1.0]];
+        let found = unanswered(modes.as_ref(), &[0.0], &[0.0, 0.0]);
+        assert_eq!((found.value, found.scaled), (0.0, 0.0));
+    }
+}

@@ -138,7 +138,7 @@ mod tests {
     use faer::{Mat, mat};
 
     use super::*;
-    use crate::condensation::Operator;
+    use crate::condensation::{Floating, Operator};
 
     /// One contact with K = [[2, 1], [1, 1]] in (normal, tangent), G = [[1, −1], [−1, 2]],
     /// μ = 0.5, no gap; lengths are multiplied by `length`, forces by `force`.
@@ -163,6 +163,27 @@ mod tests {
             ..Certificate::default()
         };
         assert_eq!(verdict.certificate, expected);
+    }
+
+    #[test]
+    fn a_floating_contact_is_judged_with_its_motion_and_its_equilibrium() {
+        // One contact of 2 m/N under a lid that sinks by α = 6 m: u = −2 · 3 + 6 = 0 under 3 N.
+        let operator = Operator::from_compliance(mat![[2.0]]).unwrap();
+        let held = ContactProblem::new(&[0], vec![0.0], vec![0.0], vec![0.0], operator).unwrap();
+        let floating = Floating::new(mat![[1.0]], vec![3.0]).unwrap();
+        let problem = held.float(floating).unwrap();
+        let judge = Judge::new(&problem);
+        let found = judge.measure_floating(&[-3.0], &[6.0]);
+        assert_eq!(
+            (found.displacement[0], found.certificate.residual()),
+            (0.0, 0.0)
+        );
+        // 1 N too much of 4 + 3, and a gap of 2 m under 4 N: ρ = ½.
+        let found = judge.measure_floating(&[-4.0], &[6.0]).certificate;
+        assert_eq!(found.equilibrium.scaled, 1.0 / 7.0);
+        assert_eq!((found.natural_map, found.residual()), (0.25, 0.25));
+        // Without its motion it is no state of a floating body.
+        assert!(judge.measure(&[-3.0]).certificate.residual().is_infinite());
     }
 
     #[test]
