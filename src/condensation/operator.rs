@@ -88,18 +88,8 @@ impl Operator {
     /// Takes the trailing block `L_cc` of a Cholesky factor (C2); its upper triangle is not read.
     #[must_use]
     pub(crate) fn from_factor(factor: Mat<f64>) -> Self {
-        let size = factor.nrows();
-        let par = get_global_parallelism();
-        let mut inverse = Mat::zeros(size, size);
-        invert_lower_triangular(inverse.as_mut(), factor.as_ref(), par);
-        let compliance = symmetric_product(
-            inverse.transpose(),
-            BlockStructure::TriangularUpper,
-            inverse.as_ref(),
-            BlockStructure::TriangularLower,
-        );
         Self {
-            compliance,
+            compliance: inverse_of_product(factor.as_ref()),
             factor: Some(factor),
             stiffness: OnceLock::new(),
         }
@@ -138,14 +128,7 @@ impl Operator {
             ));
         }
         let cholesky = self.cholesky()?;
-        let mut inverse = Mat::zeros(self.size(), self.size());
-        invert_lower_triangular(inverse.as_mut(), cholesky.L(), get_global_parallelism());
-        Some(symmetric_product(
-            inverse.transpose(),
-            BlockStructure::TriangularUpper,
-            inverse.as_ref(),
-            BlockStructure::TriangularLower,
-        ))
+        Some(inverse_of_product(cholesky.L()))
     }
 
     /// Factor of G, or of `G + ε 1` where G is numerically singular.
@@ -164,6 +147,18 @@ impl Operator {
         }
         shifted.llt(Side::Lower).ok()
     }
+}
+
+/// `(L Lᵀ)⁻¹ = L⁻ᵀ L⁻¹` (C2); the upper triangle of L is not read.
+fn inverse_of_product(lower: MatRef<'_, f64>) -> Mat<f64> {
+    let mut inverse = Mat::zeros(lower.nrows(), lower.nrows());
+    invert_lower_triangular(inverse.as_mut(), lower, get_global_parallelism());
+    symmetric_product(
+        inverse.transpose(),
+        BlockStructure::TriangularUpper,
+        inverse.as_ref(),
+        BlockStructure::TriangularLower,
+    )
 }
 
 /// Product of a triangular matrix and its transpose, half computed and half mirrored.

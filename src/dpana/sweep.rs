@@ -131,8 +131,9 @@ impl<'a> Run<'a> {
         let work = self
             .normal
             .solve(&mut self.state.reaction, roles, tolerance);
-        self.record.normal_iterations = self.count(work).iterations;
-        self.work.normal_programs += work.unwrap_or_default().programs;
+        let work = self.count(work);
+        self.record.normal_iterations = work.iterations;
+        self.work.normal_programs += work.programs;
         self.work.seconds.normal += start.elapsed().as_secs_f64();
     }
 
@@ -152,8 +153,8 @@ impl<'a> Run<'a> {
         let work = self
             .friction
             .solve(&mut self.state.reaction, roles, tolerance);
-        self.record.friction_iterations = self.count(work).iterations;
-        let work = work.unwrap_or_default();
+        let work = self.count(work);
+        self.record.friction_iterations = work.iterations;
         self.work.friction_programs += work.programs;
         self.work.friction_program_contacts = self.work.friction_program_contacts.max(work.cones);
         self.work.seconds.friction += start.elapsed().as_secs_f64();
