@@ -38,16 +38,9 @@ use sweep::Run;
 /// Settings outside their range, and a variant for study on bodies that float.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
     settings.validate()?;
-    if settings.variant != Variant::Default && problem.floating().is_some() {
-        return Err(Error::NotAccepted {
-            place: "settings.variant".to_owned(),
-            found: format!("{:?}", settings.variant),
-            accepted: "Default, as supports do not hold every body".to_owned(),
-        });
-    }
     let mut run = Run::new(problem, settings);
-    match settings.variant {
-        Variant::Default if let Some(floating) = problem.floating() => {
+    match (settings.variant, problem.floating()) {
+        (Variant::Default, Some(floating)) => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.coulomb_program(floating);
@@ -58,7 +51,14 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.doubt_equilibrium(floating);
             }
         }
-        Variant::Default => {
+        (variant, Some(_)) => {
+            return Err(Error::NotAccepted {
+                place: "settings.variant".to_owned(),
+                found: format!("{variant:?}"),
+                accepted: "Default, as supports do not hold every body".to_owned(),
+            });
+        }
+        (Variant::Default, None) => {
             let mut cold = !run.is_solved();
             if cold {
                 run.predict();
@@ -74,7 +74,7 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.end_sweep();
             }
         }
-        Variant::Plain => {
+        (Variant::Plain, None) => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.normal_half_step();
@@ -83,7 +83,7 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.end_sweep();
             }
         }
-        Variant::Nsgs => {
+        (Variant::Nsgs, None) => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.gauss_seidel_pass();
