@@ -127,3 +127,45 @@ fn a_missing_scene_and_unknown_words_exit_with_2() {
     assert_eq!(refused(&folder, &["solv"]).0, Some(2));
     assert_eq!(refused(&folder, &["solve"]).0, Some(2));
 }
+
+/// The block of 1 × 1 m under 10 N/m² of weight that nothing but the floor holds, pulled along it.
+fn loose(pull: f64) -> String {
+    let mut scene: serde_json::Value = serde_json::from_str(&scene("")).unwrap();
+    scene["bodies"][0]["loads"] = serde_json::json!([
+        { "body_force": [0, -10] },
+        { "group": "bottom", "traction": [pull, 0] }
+    ]);
+    scene.to_string()
+}
+
+#[test]
+fn limits_are_printed_and_written() {
+    let folder = folder("limit");
+    fs::write(folder.join("loose.json"), loose(1.5)).unwrap();
+    let output = dpana(&folder, &["limit", "loose.json", "--report", "limits.json"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    // μ W / pull = 0.3 · 10 / 1.5.
+    assert!(
+        said.contains("up to 2.000000000 times; then block slides along +x"),
+        "{said}"
+    );
+    let written = fs::read_to_string(folder.join("limits.json")).unwrap();
+    let limits: serde_json::Value = serde_json::from_str(&written).unwrap();
+    assert_eq!(limits["loads"][1]["limit"], "grows");
+    assert_eq!(limits["loads"][1]["certified"], true);
+}
+
+#[test]
+fn a_block_that_slides_away_is_an_answer_with_exit_status_one() {
+    let folder = folder("slides");
+    fs::write(folder.join("loose.json"), loose(3.5)).unwrap();
+    let output = dpana(&folder, &["solve", "loose.json"]);
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("NO EQUILIBRIUM"), "{said}");
+    assert!(
+        said.contains("block slides along +x; missing friction: 0.5"),
+        "{said}"
+    );
+}
