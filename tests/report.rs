@@ -193,6 +193,8 @@ impl Row {
             balances: &self.balances,
             departure: Worst::default(),
             stages: &STAGES,
+            origins: &[],
+            step: None,
             notes: &[],
         }
     }
@@ -404,6 +406,8 @@ fn a_contact_without_area_has_a_force_and_no_pressure() {
 fn a_pressed_contact_at_the_rim_and_a_node_left_out_are_noted() {
     let row = Row::new();
     let parts = ReportParts {
+        origins: &[],
+        step: None,
         notes: &["the body is alone".to_owned()],
         ..row.parts()
     };

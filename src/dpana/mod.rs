@@ -10,6 +10,9 @@
 //! Bodies that only contact holds have one program over all Coulomb cones in place of both
 //! half-steps, with their equilibrium as rows (H8).
 //!
+//! A load step starts from the last state instead: its reaction tells which contacts are open,
+//! pressed, stuck, and a finish is tried before any sweep.
+//!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
 
@@ -28,7 +31,7 @@ pub use history::{Failure, Outcome, Seconds, Status, SweepRecord, Work};
 pub use settings::{Settings, Variant};
 
 use crate::condensation::ContactProblem;
-use crate::error::Error;
+use crate::error::{Error, check_finite, check_length};
 use sweep::Run;
 
 /// Solves a condensed contact problem.
@@ -37,6 +40,36 @@ use sweep::Run;
 ///
 /// Settings outside their range, and a variant for study on bodies that float.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    Ok(run(Run::new(problem, settings)))
+}
+
+/// Solves a condensed contact problem from a state that is likely near: that of the load step
+/// before, or of a neighbouring load.
+///
+/// `reaction` is in newton per unknown, `motion` in metre per free mode. Of several solutions
+/// (high friction) it finds one near that state.
+///
+/// # Errors
+///
+/// Those of [`solve`], and a state that is not of the problem's length or not finite.
+pub fn solve_from(
+    problem: &ContactProblem,
+    settings: &Settings,
+    reaction: &[f64],
+    motion: &[f64],
+) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    check_length("motion", problem.free_modes(), motion.len())?;
+    check_finite("reaction", reaction)?;
+    check_finite("motion", motion)?;
+    let mut near = Run::new(problem, settings);
+    near.begin_from(reaction, motion);
+    Ok(run(near))
+}
+
+fn check(problem: &ContactProblem, settings: &Settings) -> Result<(), Error> {
     settings.validate()?;
     if settings.variant != Variant::Default && problem.floating().is_some() {
         return Err(Error::NotAccepted {
@@ -45,9 +78,12 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
             accepted: "Default, as supports do not hold every body".to_owned(),
         });
     }
-    let mut run = Run::new(problem, settings);
-    match settings.variant {
-        Variant::Default if let Some(floating) = problem.floating() => {
+    Ok(())
+}
+
+fn run(mut run: Run<'_>) -> Outcome {
+    match run.variant() {
+        Variant::Default if let Some(floating) = run.problem.floating() => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.coulomb_program(floating);
@@ -91,5 +127,5 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
             }
         }
     }
-    Ok(run.into_outcome())
+    run.into_outcome()
 }
