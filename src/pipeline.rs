@@ -1,13 +1,15 @@
-//! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge.
+//! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge; a load history
+//! goes round the last three.
 
 mod limit;
+mod steps;
 
 use std::path::Path;
 use std::time::Instant;
 
 use crate::body::{self, Body};
 use crate::condensation::{Condensed, ContactPair};
-use crate::dpana::{self, Outcome, Status};
+use crate::dpana::{Outcome, Settings, Status};
 use crate::error::Error;
 use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
@@ -15,89 +17,115 @@ use crate::report::{Report, ReportParts, StageWork, replace_file};
 use crate::scene::{Mechanics, Scene};
 
 pub use limit::limit;
+pub use steps::{SolvedStep, solve_steps};
 
-/// Solves a scene.
+/// Solves a scene; one with load steps to its end, or to the first state that is not certified.
 ///
 /// # Errors
 ///
 /// Whatever is wrong with the scene. A solve that does not converge is no error:
 /// see [`Solution::status`].
 pub fn solve(scene: &Scene) -> Result<Solution, Error> {
-    let Mechanics {
-        bodies,
-        contacts: pairs,
-        settings,
-    } = scene.mechanics()?;
-    let at_scene = |error| scene.locate(error);
-
-    let condensed = Condensed::new(&bodies, &pairs).map_err(at_scene)?;
-    let outcome = dpana::solve(condensed.problem(), &settings).map_err(at_scene)?;
-
-    let start = Instant::now();
-    let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
-    let balances = balances(&bodies, &condensed, &outcome.reaction, &displacements)?;
-    let departure = kkt::surface_departure(
-        &bodies,
-        &displacements,
-        condensed.surface(),
-        condensed.problem(),
-        &outcome.verdict.displacement,
-    )?;
-    let recovery_seconds = start.elapsed().as_secs_f64();
-
-    Ok(Solution {
-        title: scene.title.clone(),
-        units: scene.units.clone(),
-        bodies,
-        pairs,
-        condensed,
-        outcome,
-        displacements,
-        balances,
-        departure,
-        recovery_seconds,
-    })
+    solve_steps(scene, None, |_| Ok(()))
 }
 
-/// Equilibrium of every body.
-fn balances(
-    bodies: &[Body],
-    condensed: &Condensed,
-    reaction: &[f64],
-    displacements: &[Vec<f64>],
-) -> Result<Vec<Balance>, Error> {
-    let parts = bodies.iter().zip(condensed.bodies()).zip(displacements);
-    parts
-        .enumerate()
-        .map(|(index, ((body, operators), displacement))| {
-            kkt::balance(&kkt::BodyState {
-                index,
-                body,
-                stiffness: operators.stiffness(),
-                load: operators.load(),
-                prescribed: operators.prescribed(),
-                surface: condensed.surface(),
-                problem: condensed.problem(),
-                reaction,
-                displacement,
-            })
+/// What stays from state to state.
+#[derive(Debug)]
+struct Setup {
+    title: String,
+    units: String,
+    bodies: Vec<Body>,
+    pairs: Vec<ContactPair>,
+    settings: Settings,
+    condensed: Condensed,
+}
+
+impl Setup {
+    fn new(scene: &Scene, mechanics: Mechanics) -> Result<Self, Error> {
+        let Mechanics {
+            bodies,
+            contacts: pairs,
+            settings,
+            ..
+        } = mechanics;
+        let condensed = Condensed::new(&bodies, &pairs)?;
+        Ok(Self {
+            title: scene.title.clone(),
+            units: scene.units.clone(),
+            bodies,
+            pairs,
+            settings,
+            condensed,
         })
-        .collect()
+    }
+
+    /// Recovers the bodies of a solved problem, and measures them.
+    fn recover(self, outcome: Outcome) -> Result<Solution, Error> {
+        let start = Instant::now();
+        let condensed = &self.condensed;
+        let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
+        let states = self.body_states(&outcome.reaction, &displacements);
+        let balances = states.iter().map(kkt::balance).collect::<Result<_, _>>()?;
+        let problem = condensed.problem();
+        let departure = kkt::surface_departure(
+            &self.bodies,
+            &displacements,
+            condensed.surface(),
+            problem,
+            &problem.total_displacement(&outcome.verdict.displacement),
+        )?;
+        let recovery_seconds = start.elapsed().as_secs_f64();
+        Ok(Solution {
+            setup: self,
+            outcome,
+            displacements,
+            balances,
+            departure,
+            recovery_seconds,
+            step: None,
+        })
+    }
+
+    fn body_states<'a>(
+        &'a self,
+        reaction: &'a [f64],
+        displacements: &'a [Vec<f64>],
+    ) -> Vec<kkt::BodyState<'a>> {
+        let condensed = &self.condensed;
+        let parts = self
+            .bodies
+            .iter()
+            .zip(condensed.bodies())
+            .zip(displacements);
+        parts
+            .enumerate()
+            .map(
+                |(index, ((body, operators), displacement))| kkt::BodyState {
+                    index,
+                    body,
+                    stiffness: operators.stiffness(),
+                    load: operators.load(),
+                    prescribed: operators.prescribed(),
+                    surface: condensed.surface(),
+                    problem: condensed.problem(),
+                    reaction,
+                    displacement,
+                },
+            )
+            .collect()
+    }
 }
 
 /// A solved scene.
 #[derive(Debug)]
 pub struct Solution {
-    title: String,
-    units: String,
-    bodies: Vec<Body>,
-    pairs: Vec<ContactPair>,
-    condensed: Condensed,
+    setup: Setup,
     outcome: Outcome,
     displacements: Vec<Vec<f64>>,
     balances: Vec<Balance>,
     departure: Worst,
     recovery_seconds: f64,
+    step: Option<SolvedStep>,
 }
 
 impl Solution {
@@ -110,13 +138,13 @@ impl Solution {
     /// The bodies, in the order of the scene.
     #[must_use]
     pub fn bodies(&self) -> &[Body] {
-        &self.bodies
+        &self.setup.bodies
     }
 
     /// The bodies, condensed onto their contact surface.
     #[must_use]
     pub fn condensed(&self) -> &Condensed {
-        &self.condensed
+        &self.setup.condensed
     }
 
     /// Reactions, the judge's verdict, history and work of the outer loop.
@@ -138,14 +166,14 @@ impl Solution {
     /// [`Error::UnknownIndex`] if there is no such body.
     pub fn displacement_near(&self, body: usize, position: [f64; 3]) -> Result<[f64; 3], Error> {
         let (Some(mesh), Some(displacement)) = (
-            self.bodies.get(body).map(|body| &body.mesh),
+            self.setup.bodies.get(body).map(|body| &body.mesh),
             self.displacements.get(body),
         ) else {
             return Err(Error::UnknownIndex {
                 place: "displacement".to_owned(),
                 what: "body",
                 index: body,
-                count: self.bodies.len(),
+                count: self.setup.bodies.len(),
             });
         };
         let distance = |node: &[f64; 3]| {
@@ -173,18 +201,18 @@ impl Solution {
     ///
     /// None for a solution of [`solve`].
     pub fn report(&self) -> Result<Report, Error> {
-        let work = self.condensed.work();
+        let work = self.setup.condensed.work();
         let failure = self.outcome.failure.iter();
         let motions: Vec<_> = failure
-            .flat_map(|failure| self.condensed.motions(&failure.apparent))
+            .flat_map(|failure| self.setup.condensed.motions(&failure.apparent))
             .collect();
         Report::new(&ReportParts {
-            title: &self.title,
-            units: &self.units,
-            bodies: &self.bodies,
-            pairs: &self.pairs,
-            surface: self.condensed.surface(),
-            problem: self.condensed.problem(),
+            title: &self.setup.title,
+            units: &self.setup.units,
+            bodies: &self.setup.bodies,
+            pairs: &self.setup.pairs,
+            surface: self.setup.condensed.surface(),
+            problem: self.setup.condensed.problem(),
             outcome: &self.outcome,
             displacements: &self.displacements,
             motions: &motions,
@@ -198,8 +226,16 @@ impl Solution {
                 condensation: work.condensation_seconds,
                 recovery: self.recovery_seconds,
             },
+            origins: self.step.as_ref().map_or(&[], |step| step.origins()),
+            step: self.step.as_ref().map(|step| step.record()),
             notes: &[],
         })
+    }
+
+    /// The load step that led here; none where the scene has no steps.
+    #[must_use]
+    pub fn step(&self) -> Option<&SolvedStep> {
+        self.step.as_ref()
     }
 
     /// Writes the bodies to `path` and their contact surface beside it, as VTU.
@@ -208,7 +244,7 @@ impl Solution {
     ///
     /// A file that cannot be written; what stood there before is then left as it was.
     pub fn write_vtu(&self, path: &Path) -> Result<(), Error> {
-        let solved = || self.bodies.iter().zip(&self.displacements);
+        let solved = || self.setup.bodies.iter().zip(&self.displacements);
         let stresses: Vec<_> = solved()
             .map(|(body, displacement)| {
                 let of_cells = body::cell_stress(body, displacement);
@@ -227,9 +263,13 @@ impl Solution {
             )
             .collect();
         let of_bodies = vtu::body_vtu(&fields)?;
-        let facets = &self.condensed.surface().facets;
-        let of_contact =
-            vtu::contact_vtu(&self.report()?, &self.bodies, facets, &self.displacements)?;
+        let facets = &self.setup.condensed.surface().facets;
+        let of_contact = vtu::contact_vtu(
+            &self.report()?,
+            &self.setup.bodies,
+            facets,
+            &self.displacements,
+        )?;
         replace_file(path, &of_bodies)?;
         replace_file(&vtu::contact_path(path), &of_contact)
     }

@@ -194,6 +194,8 @@ impl Row {
             balances: &self.balances,
             departure: Worst::default(),
             stages: &STAGES,
+            origins: &[],
+            step: None,
             notes: &[],
         }
     }
@@ -352,6 +354,7 @@ fn names_of_the_report_are_stable() {
     let stages = [
         "assembly",
         "condensation",
+        "coulomb",
         "factorisation",
         "finish",
         "friction",
@@ -359,7 +362,6 @@ fn names_of_the_report_are_stable() {
         "normal",
         "ordering",
         "predict",
-        "coulomb",
         "recovery",
         "total",
     ];
@@ -406,6 +408,8 @@ fn a_contact_without_area_has_a_force_and_no_pressure() {
 fn a_pressed_contact_at_the_rim_and_a_node_left_out_are_noted() {
     let row = Row::new();
     let parts = ReportParts {
+        origins: &[],
+        step: None,
         notes: &["the body is alone".to_owned()],
         ..row.parts()
     };

@@ -31,6 +31,21 @@ pub fn load_vector(body: &Body) -> Vec<f64> {
     forces.values
 }
 
+impl Load {
+    /// The load times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        let mut scaled = self.clone();
+        match &mut scaled {
+            Self::Pressure { pressure, .. } => *pressure *= factor,
+            Self::Traction { traction: v, .. }
+            | Self::BodyForce { density: v, .. }
+            | Self::PointForce { force: v, .. } => v.iter_mut().for_each(|v| *v *= factor),
+        }
+        scaled
+    }
+}
+
 struct NodalForces<'a> {
     body: &'a Body,
     values: Vec<f64>,

@@ -44,6 +44,17 @@ pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
     Ok(prescribed)
 }
 
+impl Support {
+    /// The support with its displacement times a factor.
+    #[must_use]
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            displacement: self.displacement.map(|u| u.map(|u| factor * u)),
+            ..self.clone()
+        }
+    }
+}
+
 fn contradiction(supports: [&Support; 2], node: usize, axis: usize, values: [f64; 2]) -> Error {
     Error::ContradictorySupports {
         places: supports.map(|support| support.place.clone()),

@@ -126,7 +126,7 @@ impl Bed {
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
         let (count, unknowns) = (tangents.len(), trailing.free_displacement.len());
         let mut free = vec![0.0; unknowns];
-        interface.add_displacement(&trailing.free_displacement, &mut free);
+        interface.add_displacement(&trailing.free_displacement, &self.prescribed, &mut free);
         let operator = Operator::from_factor(trailing.factor);
         let problem = ContactProblem::new(
             &tangents,

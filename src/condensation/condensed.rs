@@ -37,10 +37,10 @@ pub struct CondensationWork {
 /// Bodies, their contact surface, and the factors that join them.
 #[derive(Debug)]
 pub struct Condensed {
-    surface: ContactSurface,
-    problem: ContactProblem,
-    bodies: Vec<CondensedBody>,
-    interfaces: Vec<Interface>,
+    pub(super) surface: ContactSurface,
+    pub(super) problem: ContactProblem,
+    pub(super) bodies: Vec<CondensedBody>,
+    pub(super) interfaces: Vec<Interface>,
     work: CondensationWork,
 }
 
@@ -83,7 +83,7 @@ impl Condensed {
         let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
         let start = Instant::now();
-        let mut problem = join(&surface, pairs, &interfaces, trailing)?;
+        let mut problem = join(&surface, pairs, &interfaces, &condensed, trailing)?;
         let groundings: Vec<_> = condensed.iter().map(|body| &body.grounding).collect();
         let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
         if let Some(floating) = floating(&surface, &groundings, &loads, dimension)? {
@@ -159,13 +159,15 @@ fn join(
     surface: &ContactSurface,
     pairs: &[ContactPair],
     interfaces: &[Interface],
+    bodies: &[CondensedBody],
     trailing: Vec<Trailing>,
 ) -> Result<ContactProblem, Error> {
     let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
     let mut free_displacement = vec![0.0; unknowns];
-    for (interface, of_body) in interfaces.iter().zip(&trailing) {
-        interface.add_displacement(&of_body.free_displacement, &mut free_displacement);
+    for ((interface, of_body), body) in interfaces.iter().zip(&trailing).zip(bodies) {
+        let free = &of_body.free_displacement;
+        interface.add_displacement(free, body.prescribed(), &mut free_displacement);
     }
     let mut operators = trailing
         .into_iter()

@@ -30,6 +30,34 @@ pub struct CondensedBody {
 }
 
 impl CondensedBody {
+    /// Puts the body under a load, in newton, and given displacements at the same unknowns as
+    /// before, in metre; returns `v̂` of (C5), in metre, for one pair of substitutions.
+    pub(super) fn act(&mut self, load: Vec<f64>, prescribed: Vec<Option<f64>>) -> Vec<f64> {
+        (self.load, self.prescribed) = (load, prescribed);
+        self.half_solved = self.right_hand_side();
+        self.factor.forward(&mut self.half_solved);
+        let mut solved = self.half_solved.clone();
+        self.factor.backward_on_contact(&mut solved).to_vec()
+    }
+
+    /// `P Qᵀ (f − K u_p)`, in newton.
+    fn right_hand_side(&self) -> Vec<f64> {
+        let mut force = self.load.clone();
+        for (column, value) in self.prescribed.iter().enumerate() {
+            let Some(value) = value.filter(|&value| value != 0.0) else {
+                continue;
+            };
+            // K is symmetric: its row is its column.
+            let entries = self.stiffness.indptr().outer_inds_sz(column);
+            let rows = &self.stiffness.indices()[entries.clone()];
+            for (&row, entry) in rows.iter().zip(&self.stiffness.data()[entries]) {
+                force[row] -= entry * value;
+            }
+        }
+        self.frames.turn_to_local(&mut force);
+        self.ordering.dof.iter().map(|&dof| force[dof]).collect()
+    }
+
     /// Stiffness K of the whole body in global axes, supports not applied, in N/m.
     #[must_use]
     pub fn stiffness(&self) -> &CsMat<f64> {

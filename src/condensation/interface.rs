@@ -31,8 +31,9 @@ pub(crate) struct Interface {
     pub(crate) nodes: Vec<InterfaceNode>,
     /// B_k: `(interface unknown, coefficient)` per unknown of the contact problem.
     rows: Vec<Vec<(usize, f64)>>,
-    /// Part of û that supports prescribe, in metre.
-    given: Vec<f64>,
+    /// Where supports prescribe part of û: `(degree of freedom, coefficient)` per unknown of
+    /// the contact problem.
+    given: Vec<Vec<(usize, f64)>>,
     unknowns: usize,
 }
 
@@ -63,14 +64,19 @@ impl Interface {
             offsets.push(offsets[offsets.len() - 1] + 1 + contact.tangents);
         }
         let size = offsets[surface.nodes.len()];
-        let (mut rows, mut given) = (vec![Vec::new(); size], vec![0.0; size]);
+        let (mut rows, mut given) = (vec![Vec::new(); size], vec![Vec::new(); size]);
         let mut unknowns = 0;
         for interface in &nodes {
-            let held = held(interface.node).map(|value| value.unwrap_or(0.0));
+            let held = held(interface.node);
             for &(contact, weight) in &touches[&interface.node] {
                 for (row, direction) in unknown_rows(&surface.nodes[contact]).enumerate() {
                     let at = offsets[contact] + row;
-                    given[at] += weight * dot(direction, &held);
+                    for (axis, held) in held.iter().enumerate() {
+                        let coefficient = weight * direction[axis];
+                        if held.is_some() && coefficient != 0.0 {
+                            given[at].push((interface.node * dimension + axis, coefficient));
+                        }
+                    }
                     for (kept, axis) in interface.frame[..interface.kept].iter().enumerate() {
                         let coefficient = weight * dot(direction, axis);
                         if coefficient != 0.0 {
@@ -95,13 +101,22 @@ impl Interface {
         self.rows.len() == self.unknowns && rows.all(|(i, row)| *row == [(i, 1.0)])
     }
 
-    /// Adds `B_k v_k + given` (C11).
-    pub(crate) fn add_displacement(&self, of_body: &[f64], displacement: &mut [f64]) {
+    /// Adds `B_k v_k + given` (C11) for given displacements per degree of freedom, in metre.
+    pub(crate) fn add_displacement(
+        &self,
+        of_body: &[f64],
+        prescribed: &[Option<f64>],
+        displacement: &mut [f64],
+    ) {
         for (u, (row, given)) in displacement
             .iter_mut()
             .zip(self.rows.iter().zip(&self.given))
         {
-            *u += given + row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
+            let given = given.iter();
+            *u += given
+                .map(|&(dof, b)| b * prescribed[dof].unwrap_or(0.0))
+                .sum::<f64>()
+                + row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
         }
     }
 

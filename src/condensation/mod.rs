@@ -20,6 +20,7 @@
 //! | free displacement (C5) | `supported` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `floating`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6) | `condensed_body` |
+//! | the problem of a load step (C13) | `problem`, `step` |
 
 #[cfg(test)]
 mod bed;
@@ -43,6 +44,7 @@ mod ordering;
 mod paired;
 pub mod problem;
 mod rigid_bodies;
+mod step;
 mod substitution;
 mod supported;
 pub mod surface;

@@ -1,4 +1,16 @@
 //! The condensed contact problem: plain numbers between mechanics and solver.
+//!
+//! A load step starts from where the last state left the contacts. Its laws see
+//!
+//! ```text
+//! (C13)  u = û − u_ref + G t      u_ref: slip of the last state in the tangents,
+//!                                 motion of a rigid other side along the normal
+//! ```
+//!
+//! and so does everything that solves or judges: to them a step is a problem like any other,
+//! whose free displacement is `û − u_ref`. What does not change from step to step is shared.
+
+use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, get_global_parallelism};
@@ -16,8 +28,10 @@ use crate::error::{Error, check_finite, check_length};
 pub struct ContactProblem {
     friction: Vec<f64>,
     initial_gap: Vec<f64>,
+    /// `û − u_ref` of (C13).
     free_displacement: Vec<f64>,
-    operator: Operator,
+    reference: Vec<f64>,
+    operator: Arc<Operator>,
     offsets: Vec<usize>,
     floating: Option<Floating>,
 }
@@ -60,23 +74,79 @@ impl ContactProblem {
         let unknowns = offsets[contacts];
         check_length("free_displacement", unknowns, free_displacement.len())?;
         check_length("operator", unknowns, operator.size())?;
-        check_finite("friction", &friction)?;
+        check_friction(&friction)?;
         check_finite("initial_gap", &initial_gap)?;
         check_finite("free_displacement", &free_displacement)?;
-        if let Some(contact) = friction.iter().position(|&mu| mu < 0.0) {
-            return Err(Error::OutOfRange {
-                place: format!("friction[{contact}]"),
-                value: friction[contact],
-                accepted: "friction >= 0",
-            });
-        }
         Ok(Self {
             friction,
             initial_gap,
             free_displacement,
-            operator,
+            reference: vec![0.0; unknowns],
+            operator: Arc::new(operator),
             offsets,
             floating: None,
+        })
+    }
+
+    /// The same contacts under another load: `free_displacement` is û in metre per unknown,
+    /// `reference` is u_ref of (C13), in metre per unknown. The operator is shared.
+    ///
+    /// For a problem that starts from a solved one, the reference is
+    /// [`total_displacement`](Self::total_displacement) of its state in the tangents, and zero
+    /// along the normals: an open contact is then taken on from where it stands, so that one that
+    /// closes again begins a new slip.
+    ///
+    /// # Errors
+    ///
+    /// A length that does not fit, a NaN or infinity.
+    pub fn step(
+        &self,
+        mut free_displacement: Vec<f64>,
+        reference: Vec<f64>,
+    ) -> Result<Self, Error> {
+        check_length(
+            "free_displacement",
+            self.unknowns(),
+            free_displacement.len(),
+        )?;
+        check_length("reference", self.unknowns(), reference.len())?;
+        check_finite("free_displacement", &free_displacement)?;
+        check_finite("reference", &reference)?;
+        for (free, reference) in free_displacement.iter_mut().zip(&reference) {
+            *free -= reference;
+        }
+        Ok(Self {
+            free_displacement,
+            reference,
+            ..self.clone()
+        })
+    }
+
+    /// The same problem with other coefficients of friction, per contact.
+    ///
+    /// # Errors
+    ///
+    /// A length that does not fit, a NaN or infinity, a negative coefficient.
+    pub fn with_friction(&self, friction: Vec<f64>) -> Result<Self, Error> {
+        check_length("friction", self.contacts(), friction.len())?;
+        check_friction(&friction)?;
+        Ok(Self {
+            friction,
+            ..self.clone()
+        })
+    }
+
+    /// The same problem with other gaps before loading, in metre per contact.
+    ///
+    /// # Errors
+    ///
+    /// A length that does not fit, a NaN or infinity.
+    pub fn with_initial_gap(&self, initial_gap: Vec<f64>) -> Result<Self, Error> {
+        check_length("initial_gap", self.contacts(), initial_gap.len())?;
+        check_finite("initial_gap", &initial_gap)?;
+        Ok(Self {
+            initial_gap,
+            ..self.clone()
         })
     }
 
@@ -122,10 +192,24 @@ impl ContactProblem {
         &self.initial_gap
     }
 
-    /// Displacement without contact forces per unknown, in metre.
+    /// Displacement without contact forces per unknown, from the reference on (C13), in metre.
     #[must_use]
     pub fn free_displacement(&self) -> &[f64] {
         &self.free_displacement
+    }
+
+    /// u_ref of (C13) per unknown, in metre; zero where no step came before.
+    #[must_use]
+    pub fn reference(&self) -> &[f64] {
+        &self.reference
+    }
+
+    /// Displacement from the start of the history on, in metre per unknown, of one that is
+    /// measured from the reference (C13), such as the judge's.
+    #[must_use]
+    pub fn total_displacement(&self, displacement: &[f64]) -> Vec<f64> {
+        let pairs = displacement.iter().zip(&self.reference);
+        pairs.map(|(u, reference)| u + reference).collect()
     }
 
     /// What the supports leave free; none if they hold every body.
@@ -152,7 +236,8 @@ impl ContactProblem {
         self.operator.compliance()
     }
 
-    /// Displacement `u = û + G t` (C1) for a reaction per unknown, in metre.
+    /// Displacement `u = û + G t` (C1) for a reaction per unknown, in metre; from the reference
+    /// on (C13).
     #[must_use]
     pub fn displacement(&self, reaction: &[f64]) -> Vec<f64> {
         let mut displacement = self.free_displacement.clone();
@@ -165,5 +250,17 @@ impl ContactProblem {
             get_global_parallelism(),
         );
         displacement
+    }
+}
+
+fn check_friction(friction: &[f64]) -> Result<(), Error> {
+    check_finite("friction", friction)?;
+    match friction.iter().position(|&mu| mu < 0.0) {
+        None => Ok(()),
+        Some(contact) => Err(Error::OutOfRange {
+            place: format!("friction[{contact}]"),
+            value: friction[contact],
+            accepted: "friction >= 0",
+        }),
     }
 }

@@ -57,26 +57,22 @@ impl SupportedBody<'_> {
         work.factor_entries += factor.entries();
 
         let start = Instant::now();
-        let mut half_solved = self.right_hand_side(&frames, &ordering);
-        factor.forward(&mut half_solved);
-        let free_displacement = factor
-            .backward_on_contact(&mut half_solved.clone())
-            .to_vec();
-        let trailing = Trailing {
-            factor: factor.trailing_block(),
-            free_displacement,
-        };
-        work.condensation_seconds += start.elapsed().as_secs_f64();
-        let body = CondensedBody {
+        let of_interface = factor.trailing_block();
+        let mut body = CondensedBody {
             stiffness: self.stiffness,
-            load: self.load,
-            prescribed: self.prescribed,
+            load: Vec::new(),
+            prescribed: Vec::new(),
             frames,
             ordering,
             factor,
-            half_solved,
+            half_solved: Vec::new(),
             grounding: self.grounding,
         };
+        let trailing = Trailing {
+            factor: of_interface,
+            free_displacement: body.act(self.load, self.prescribed),
+        };
+        work.condensation_seconds += start.elapsed().as_secs_f64();
         Ok((body, trailing))
     }
 
@@ -104,24 +100,6 @@ impl SupportedBody<'_> {
             }
         }
         (roles, contact)
-    }
-
-    /// `P Qᵀ (f − K u_p)`, in newton.
-    fn right_hand_side(&self, frames: &Frames, ordering: &Ordering) -> Vec<f64> {
-        let mut force = self.load.clone();
-        for (column, value) in self.prescribed.iter().enumerate() {
-            let Some(value) = value.filter(|&value| value != 0.0) else {
-                continue;
-            };
-            // K is symmetric: its row is its column.
-            let entries = self.stiffness.indptr().outer_inds_sz(column);
-            let rows = &self.stiffness.indices()[entries.clone()];
-            for (&row, entry) in rows.iter().zip(&self.stiffness.data()[entries]) {
-                force[row] -= entry * value;
-            }
-        }
-        frames.turn_to_local(&mut force);
-        ordering.dof.iter().map(|&dof| force[dof]).collect()
     }
 
     fn too_large(&self, stage: &'static str) -> Error {

@@ -10,6 +10,9 @@
 //! Bodies that only contact holds have one program over all Coulomb cones in place of both
 //! half-steps, with their equilibrium as rows (H8).
 //!
+//! A load step starts from the last state instead: its reaction tells which contacts are open,
+//! pressed, stuck, and a finish is tried before any sweep.
+//!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
 
@@ -28,7 +31,7 @@ pub use history::{Failure, Outcome, Seconds, Status, SweepRecord, Work};
 pub use settings::{Settings, Variant};
 
 use crate::condensation::ContactProblem;
-use crate::error::Error;
+use crate::error::{Error, check_finite, check_length};
 use sweep::Run;
 
 /// Solves a condensed contact problem.
@@ -37,9 +40,49 @@ use sweep::Run;
 ///
 /// Settings outside their range, and a variant for study on bodies that float.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    Ok(run(Run::new(problem, settings)))
+}
+
+/// Solves a condensed contact problem from a state that is likely near: that of the load step
+/// before, or of a neighbouring load.
+///
+/// `reaction` is in newton per unknown, `motion` in metre per free mode. Of several solutions
+/// (high friction) it finds one near that state.
+///
+/// # Errors
+///
+/// Those of [`solve`], and a state that is not of the problem's length or not finite.
+pub fn solve_from(
+    problem: &ContactProblem,
+    settings: &Settings,
+    reaction: &[f64],
+    motion: &[f64],
+) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    check_length("motion", problem.free_modes(), motion.len())?;
+    check_finite("reaction", reaction)?;
+    check_finite("motion", motion)?;
+    let mut near = Run::new(problem, settings);
+    near.begin_from(reaction, motion);
+    Ok(run(near))
+}
+
+fn check(problem: &ContactProblem, settings: &Settings) -> Result<(), Error> {
     settings.validate()?;
-    let mut run = Run::new(problem, settings);
-    match (settings.variant, problem.floating()) {
+    if settings.variant != Variant::Default && problem.floating().is_some() {
+        return Err(Error::NotAccepted {
+            place: "settings.variant".to_owned(),
+            found: format!("{:?}", settings.variant),
+            accepted: "Default, as supports do not hold every body".to_owned(),
+        });
+    }
+    Ok(())
+}
+
+fn run(mut run: Run<'_>) -> Outcome {
+    match (run.variant(), run.problem.floating()) {
         (Variant::Default, Some(floating)) => {
             while run.goes_on() {
                 run.begin_sweep();
@@ -50,13 +93,6 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.end_sweep();
                 run.doubt_equilibrium(floating);
             }
-        }
-        (variant, Some(_)) => {
-            return Err(Error::NotAccepted {
-                place: "settings.variant".to_owned(),
-                found: format!("{variant:?}"),
-                accepted: "Default, as supports do not hold every body".to_owned(),
-            });
         }
         (Variant::Default, None) => {
             let mut cold = !run.is_solved();
@@ -74,7 +110,7 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.end_sweep();
             }
         }
-        (Variant::Plain, None) => {
+        (Variant::Plain, _) => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.normal_half_step();
@@ -83,7 +119,7 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
                 run.end_sweep();
             }
         }
-        (Variant::Nsgs, None) => {
+        (Variant::Nsgs, _) => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.gauss_seidel_pass();
@@ -91,5 +127,5 @@ pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, E
             }
         }
     }
-    Ok(run.into_outcome())
+    run.into_outcome()
 }

@@ -88,6 +88,20 @@ impl<'a> Run<'a> {
         }
     }
 
+    /// Starts from a state that is likely near, with a finish where sweeps need not be run.
+    pub(super) fn begin_from(&mut self, reaction: &[f64], motion: &[f64]) {
+        self.state.reaction = reaction.to_vec();
+        self.state.motion = motion.to_vec();
+        self.judge();
+        if self.settings.variant == Variant::Default {
+            self.newton_finish();
+        }
+    }
+
+    pub(super) fn variant(&self) -> Variant {
+        self.settings.variant
+    }
+
     /// The judge's residual of the best state is at most the tolerance.
     pub(super) fn is_solved(&self) -> bool {
         self.best.residual() <= self.settings.tolerance

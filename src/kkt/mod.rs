@@ -14,6 +14,7 @@
 //! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
 //! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
 //! (K8)  Rᵀ t + e = 0                                            equilibrium of floating bodies
+//! (K9)  external work = elastic + dissipation + closure          where the work of a load step went
 //! ```
 //!
 //! It shares no code with the solver: it never sees a cone program or a sweep, only
@@ -32,6 +33,7 @@ mod floating;
 mod held;
 mod impossibility;
 mod judge;
+mod ledger;
 mod natural_map;
 mod resultant;
 #[cfg(test)]
@@ -49,6 +51,7 @@ pub use exchange::{Exchange, exchange};
 pub use held::{Held, held};
 pub use impossibility::{Impossibility, impossibility};
 pub use judge::Judge;
+pub use ledger::{Account, ContactStep, Ledger};
 pub use resultant::{Defect, Resultant};
 pub use sides::{global_force, relative_displacement};
 pub use surface_departure::surface_departure;

@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use super::ReportParts;
 use super::certificate::in_dimension;
-use crate::condensation::ContactNode;
 use crate::kkt::{ContactStatus, global_force, relative_displacement};
 
 /// What a contact does, as reports spell it.
@@ -73,7 +72,7 @@ pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<
             normal: in_dimension(contact.frame[0], dimension),
             state: parts.outcome.verdict.status[i].into(),
             gap: gap(parts, i),
-            slip: in_dimension(slip(parts, contact), dimension),
+            slip: in_dimension(slip(parts, i), dimension),
             area: contact.area,
             force: in_dimension(force.total, dimension),
             pressure: per_area(force.pressing, contact.area),
@@ -110,11 +109,16 @@ fn gap(parts: &ReportParts<'_>, contact: usize) -> f64 {
     parts.problem.initial_gap()[contact] - parts.outcome.verdict.displacement[normal]
 }
 
-/// `u − (u·n) n` of the relative displacement u in the recovered bodies, in metre. Not read
+/// `u − (u·n) n` of the relative displacement u in the recovered bodies, from the start of the
+/// step on, in metre. Not read
 /// from the contact problem, which holds no tangent where there is no friction: the bodies
 /// slide all the same.
-fn slip(parts: &ReportParts<'_>, contact: &ContactNode) -> [f64; 3] {
-    let slip = relative_displacement(contact, parts.displacements, parts.dimension());
+fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
+    let contact = &parts.surface.nodes[i];
+    let mut slip = relative_displacement(contact, parts.displacements, parts.dimension());
+    if let Some(origin) = parts.origins.get(i) {
+        slip.iter_mut().zip(origin).for_each(|(u, from)| *u -= from);
+    }
     let normal = contact.frame[0];
     let along: f64 = slip.iter().zip(normal).map(|(u, n)| u * n).sum();
     [0, 1, 2].map(|axis| slip[axis] - along * normal[axis])

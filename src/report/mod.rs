@@ -12,6 +12,7 @@ mod file;
 mod limit;
 mod motion;
 mod notes;
+mod step;
 mod summary;
 mod totals;
 pub mod vtu;
@@ -26,6 +27,7 @@ pub use file::replace_file;
 pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
 pub use motion::Motion;
 pub(crate) use motion::motions;
+pub use step::{Ledger, Step};
 pub use totals::{Exchange, PairTotals, Totals};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
@@ -47,6 +49,9 @@ pub struct Report {
     /// With `no_equilibrium`: what moves, and what is missing to hold it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<Failure>,
+    /// The load step that led here; absent where the scene has none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub step: Option<Step>,
     /// Size of the problem.
     pub size: Size,
     /// Every law and the balance of every body, measured.
@@ -104,7 +109,7 @@ pub struct BodySize {
 }
 
 /// What a report is made of.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ReportParts<'a> {
     /// Title of the scene.
     pub title: &'a str,
@@ -130,6 +135,11 @@ pub struct ReportParts<'a> {
     pub departure: kkt::Worst,
     /// What the stages around the outer loop took.
     pub stages: &'a StageWork,
+    /// Relative displacement of every contact, in global axes, from which its slip counts, in
+    /// metre; empty where it counts from the bodies before loading.
+    pub origins: &'a [[f64; 3]],
+    /// The load step that led here.
+    pub step: Option<Step>,
     /// Notes of other stages; those on the contact surface are added here.
     pub notes: &'a [String],
 }
@@ -156,6 +166,7 @@ impl Report {
             units: parts.units.to_owned(),
             status: parts.outcome.status.into(),
             failure: Failure::new(parts),
+            step: parts.step.clone(),
             size: Size::new(parts),
             certificate: Certificate::new(parts),
             totals: Totals::new(parts, &exchanges, &forces),
@@ -239,6 +250,9 @@ fn check(parts: &ReportParts<'_>) -> Result<(), Error> {
     }
     let (contacts, unknowns) = (parts.problem.contacts(), parts.problem.unknowns());
     check_length("contact nodes", contacts, parts.surface.nodes.len())?;
+    if !parts.origins.is_empty() {
+        check_length("origins", contacts, parts.origins.len())?;
+    }
     check_length("status", contacts, verdict.status.len())?;
     check_length("reaction", unknowns, parts.outcome.reaction.len())?;
     check_length("contact displacement", unknowns, verdict.displacement.len())

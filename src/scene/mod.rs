@@ -3,6 +3,7 @@
 //! ```text
 //! bodies    mesh, model, materials, supports, loads
 //! contacts  group of surface facets, rigid obstacle, friction
+//! steps     instants, factors of loads and supports, motions of obstacles
 //! settings  tolerance, max_sweeps
 //! ```
 //!
@@ -17,9 +18,12 @@ mod elastic_body;
 mod json;
 mod load;
 mod mesh_source;
+mod saved_state;
 mod selection;
 mod spelling;
+mod steps;
 mod support;
+mod table;
 
 use std::path::{Path, PathBuf};
 
@@ -36,6 +40,8 @@ pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
+pub use saved_state::{Exact, SavedState, exact, plain};
+pub use steps::{LoadHistory, SceneSteps};
 pub use support::SceneSupport;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
@@ -54,6 +60,8 @@ pub struct Scene {
     /// Where the bodies may touch obstacles or each other; at least one.
     #[schemars(length(min = 1))]
     pub contacts: Vec<SceneContact>,
+    /// A load history; left out, there is one state under the loads as they stand.
+    pub steps: Option<SceneSteps>,
     /// When the solve may stop.
     #[serde(default)]
     pub settings: SceneSettings,
@@ -85,6 +93,8 @@ pub struct Mechanics {
     pub bodies: Vec<Body>,
     /// What may touch what.
     pub contacts: Vec<ContactPair>,
+    /// How loads, supports and obstacles change; no instants where the scene has no steps.
+    pub history: LoadHistory,
     /// Settings of the outer loop.
     pub settings: Settings,
 }
@@ -157,10 +167,15 @@ impl Scene {
         let contacts = self.contacts.iter().enumerate();
         let contacts = contacts
             .map(|(at, contact)| contact.resolve(&format!("contacts[{at}]"), &bodies))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
+        let history = match &self.steps {
+            Some(steps) => steps.resolve(&bodies, &contacts)?,
+            None => LoadHistory::default(),
+        };
         Ok(Mechanics {
             bodies,
             contacts,
+            history,
             settings,
         })
     }
@@ -266,6 +281,7 @@ mod tests {
             bodies,
             contacts,
             settings,
+            ..
         } = Scene::from_json(SQUARE, "").unwrap().mechanics().unwrap();
         let (body, contact) = (&bodies[0], &contacts[0]);
         assert_eq!(
@@ -378,7 +394,7 @@ mod tests {
             let keys = of["properties"].as_object().unwrap().keys().cloned();
             keys.collect::<Vec<_>>().join(" ")
         };
-        assert_eq!(keys(&schema), "bodies contacts settings title units");
+        assert_eq!(keys(&schema), "bodies contacts settings steps title units");
         assert_eq!(schema["additionalProperties"], false);
         let loads = schema["$defs"]["SceneLoad"]["anyOf"].as_array().unwrap();
         let of_loads: Vec<_> = loads.iter().map(keys).collect();

@@ -1,0 +1,188 @@
+//! Where the work of a load step went.
+//!
+//! ```text
+//! (K9)   loads + supports + obstacles = elastic + dissipation + closure
+//!
+//!        loads       Σ ½ (f⁰ + f) · Δu          f⁰, f: before and after the step
+//!        supports    Σ ½ (s⁰ + s) · Δu_p        s: support reactions (K4)
+//!        obstacles   Σ ½ (t⁰ + t) · Δd          d: motion of a rigid other side (C14)
+//!        elastic     Δ ½ u · K u
+//!        dissipation Σ ½ μ (|t_N⁰| + |t_N|) ‖Δu_T‖   over contacts that end pressed; never negative
+//! (K10)  closure     −Σ ½ (t⁰ + t) · Δ(u_N, u_T) − dissipation
+//! ```
+//!
+//! As K is symmetric the trapezoidal rule gives Δ elastic exactly, so the closure is (K10) up to
+//! round-off: what the two ends of a step do not tell of the way between them. It vanishes where
+//! loads grow in proportion and every contact keeps its state and direction; it is left by
+//! contacts that begin to slip, turn, open or close within the step, and falls with its size.
+
+use super::body_state::BodyState;
+use super::sides::block;
+use crate::condensation::ContactProblem;
+use crate::error::{Error, check_length};
+
+/// Work and energy of a load step (K9), in joule.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Ledger {
+    /// Work of the given forces.
+    pub loads: f64,
+    /// Work of the moved supports.
+    pub supports: f64,
+    /// Work of the moved obstacles.
+    pub obstacles: f64,
+    /// Change of the elastic energy.
+    pub elastic: f64,
+    /// What friction dissipated, never negative.
+    pub dissipation: f64,
+    /// What the ends of the step leave unexplained.
+    pub closure: f64,
+}
+
+/// What the ledger needs of the bodies in one state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Account {
+    bodies: Vec<BodyAccount>,
+    elastic: f64,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct BodyAccount {
+    displacement: Vec<f64>,
+    load: Vec<f64>,
+    /// Zero where free.
+    support: Vec<f64>,
+}
+
+/// The contacts before and after a step.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactStep<'a> {
+    /// The problem of the step.
+    pub problem: &'a ContactProblem,
+    /// Reaction before and after, in newton per unknown.
+    pub reaction: [&'a [f64]; 2],
+    /// The judge's displacement after, from the reference on, in metre per unknown.
+    pub displacement: &'a [f64],
+    /// Motion of the other side during the step, in metre per unknown.
+    pub moved: &'a [f64],
+}
+
+impl Account {
+    /// Of bodies in equilibrium.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] or [`Error::UnknownIndex`] if the arrays do not belong together.
+    pub fn new(states: &[BodyState<'_>]) -> Result<Self, Error> {
+        let mut account = Self::default();
+        for state in states {
+            state.check()?;
+            let contact = state.contact_forces();
+            let mut support = state.support_reactions(&contact);
+            let mut energy = 0.0;
+            for (k, u) in state.displacement.iter().enumerate() {
+                energy += 0.5 * u * (support[k] + state.load[k] + contact[k]);
+                if state.prescribed[k].is_none() {
+                    support[k] = 0.0;
+                }
+            }
+            account.elastic += energy;
+            account.bodies.push(BodyAccount {
+                displacement: state.displacement.to_vec(),
+                load: state.load.to_vec(),
+                support,
+            });
+        }
+        Ok(account)
+    }
+
+    /// The same bodies without load and displacement.
+    #[must_use]
+    pub fn at_rest(&self) -> Self {
+        let bodies = self.bodies.iter().map(|body| {
+            let zero = vec![0.0; body.load.len()];
+            BodyAccount {
+                displacement: zero.clone(),
+                load: zero.clone(),
+                support: zero,
+            }
+        });
+        Self {
+            bodies: bodies.collect(),
+            elastic: 0.0,
+        }
+    }
+}
+
+impl Ledger {
+    /// (K9) of a step between two states of the bodies.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if states and contacts do not belong together.
+    pub fn new(
+        before: &Account,
+        after: &Account,
+        contacts: &ContactStep<'_>,
+    ) -> Result<Self, Error> {
+        check_length("bodies", before.bodies.len(), after.bodies.len())?;
+        let unknowns = contacts.problem.unknowns();
+        for (place, values) in [
+            ("reaction before", contacts.reaction[0]),
+            ("reaction", contacts.reaction[1]),
+            ("displacement", contacts.displacement),
+            ("motion of the other side", contacts.moved),
+        ] {
+            check_length(place, unknowns, values.len())?;
+        }
+        let mut ledger = Self {
+            elastic: after.elastic - before.elastic,
+            ..Self::default()
+        };
+        for (before, after) in before.bodies.iter().zip(&after.bodies) {
+            check_length("load", before.load.len(), after.load.len())?;
+            for k in 0..after.load.len() {
+                let moved = after.displacement[k] - before.displacement[k];
+                ledger.loads += 0.5 * (before.load[k] + after.load[k]) * moved;
+                ledger.supports += 0.5 * (before.support[k] + after.support[k]) * moved;
+            }
+        }
+        let means = contacts.reaction[0].iter().zip(contacts.reaction[1]);
+        for ((before, after), moved) in means.zip(contacts.moved) {
+            ledger.obstacles += 0.5 * (before + after) * moved;
+        }
+        ledger.dissipation = contacts.dissipation();
+        ledger.closure =
+            ledger.loads + ledger.supports + ledger.obstacles - ledger.elastic - ledger.dissipation;
+        Ok(ledger)
+    }
+
+    /// Both steps together.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            loads: self.loads + other.loads,
+            supports: self.supports + other.supports,
+            obstacles: self.obstacles + other.obstacles,
+            elastic: self.elastic + other.elastic,
+            dissipation: self.dissipation + other.dissipation,
+            closure: self.closure + other.closure,
+        }
+    }
+}
+
+impl ContactStep<'_> {
+    fn dissipation(&self) -> f64 {
+        let friction = self.problem.friction().iter().enumerate();
+        friction
+            .map(|(i, mu)| {
+                let [before, after] = self.reaction.map(|t| block(self.problem, i, t)[0].min(0.0));
+                let slip = &block(self.problem, i, self.displacement)[1..];
+                let slip = slip.iter().fold(0.0, |size: f64, u| size.hypot(*u));
+                match after < 0.0 {
+                    true => -0.5 * mu * (before + after) * slip,
+                    false => 0.0,
+                }
+            })
+            .sum()
+    }
+}

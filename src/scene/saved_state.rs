@@ -1,0 +1,116 @@
+//! The state after a load step, from which a history is taken on.
+//!
+//! Numbers are written as text in the shortest form that gives back every bit.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
+
+use super::json;
+use crate::error::Error;
+
+/// What the next step needs of the last one.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a state")]
+pub struct SavedState {
+    /// Steps done.
+    pub steps: usize,
+    /// Instant of the last.
+    pub at: Exact,
+    /// Reaction per contact unknown, in newton.
+    pub reaction: Vec<Exact>,
+    /// Rigid motion per free mode, in metre.
+    pub motion: Vec<Exact>,
+    /// Slip per contact unknown since the start of the history, in metre.
+    pub slip: Vec<Exact>,
+    /// Displacement per body and unknown, in metre.
+    pub displacements: Vec<Vec<Exact>>,
+    /// Work and energy since the start of the history, in joule, in the order of the report.
+    pub ledger: Vec<Exact>,
+}
+
+/// A number that comes back bit for bit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Exact(pub f64);
+
+impl Serialize for Exact {
+    fn serialize<S: Serializer>(&self, sink: S) -> Result<S::Ok, S::Error> {
+        sink.serialize_str(&self.0.to_string())
+    }
+}
+
+impl<'de> Deserialize<'de> for Exact {
+    fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(source)?;
+        let number: f64 = text.parse().map_err(|_| {
+            de::Error::custom(format!("`{text}` is no number; expected one in quotes"))
+        })?;
+        match number.is_finite() {
+            true => Ok(Self(number)),
+            false => Err(de::Error::custom(format!("{text} is not a finite number"))),
+        }
+    }
+}
+
+impl SavedState {
+    /// Reads a state; `file` stands for it in messages.
+    ///
+    /// # Errors
+    ///
+    /// Text that is no state, with line and column.
+    pub fn from_json(text: &str, file: &str) -> Result<Self, Error> {
+        json::parse(text, file)
+    }
+
+    /// The state as JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Plain structs with string keys: there is nothing that could fail to serialise.
+        serde_json::to_string(self).unwrap_or_default()
+    }
+}
+
+/// Numbers to be written.
+#[must_use]
+pub fn exact(values: &[f64]) -> Vec<Exact> {
+    values.iter().map(|&value| Exact(value)).collect()
+}
+
+/// Numbers that were read.
+#[must_use]
+pub fn plain(values: &[Exact]) -> Vec<f64> {
+    values.iter().map(|value| value.0).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn every_bit_of_a_number_comes_back() {
+        let numbers = [0.1 + 0.2, -0.0, 5e-324, f64::MAX, 1.0 / 3.0, -7.0];
+        let state = SavedState {
+            steps: 3,
+            at: Exact(0.3),
+            reaction: exact(&numbers),
+            motion: vec![],
+            slip: vec![],
+            displacements: vec![exact(&numbers)],
+            ledger: vec![],
+        };
+        let back = SavedState::from_json(&state.to_json(), "state.json").unwrap();
+        for (back, number) in plain(&back.reaction).iter().zip(numbers) {
+            assert_eq!(back.to_bits(), number.to_bits());
+        }
+    }
+
+    #[test]
+    fn text_that_is_no_number_is_refused_with_its_place() {
+        let text = r#"{"steps": 1, "at": "soon"}"#;
+        let refused = SavedState::from_json(text, "state.json").unwrap_err();
+        let refused = refused.to_string();
+        assert!(
+            refused.contains("state.json:1") && refused.contains("at: `soon`"),
+            "{refused}"
+        );
+    }
+}
