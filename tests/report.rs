@@ -368,6 +368,7 @@ fn names_of_the_report_are_stable() {
     assert_eq!(keys(&json["work"]["seconds"]), stages);
     assert_eq!(json["work"]["seconds"]["total"], 0.75);
     let sweep = [
+        "coulomb_iterations",
         "friction_iterations",
         "newton_steps",
         "normal_iterations",
