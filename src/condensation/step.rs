@@ -59,6 +59,18 @@ impl Condensed {
         Ok(())
     }
 
+    /// Takes other coefficients of friction and other gaps before loading, in metre; both per
+    /// contact. Contacts that were condensed without friction have no tangents and stay smooth.
+    ///
+    /// # Errors
+    ///
+    /// Lengths that do not fit, a NaN or infinity, a negative coefficient.
+    pub fn replace(&mut self, friction: Vec<f64>, initial_gap: Vec<f64>) -> Result<(), Error> {
+        let problem = self.problem.with_friction(friction)?;
+        self.problem = problem.with_initial_gap(initial_gap)?;
+        Ok(())
+    }
+
     /// Slip of a solved state since the start of the history, in metre per unknown, for the next
     /// [`act`](Self::act); `displacement` is the judge's, `slip` what the step began with.
     #[must_use]
