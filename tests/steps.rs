@@ -202,7 +202,7 @@ fn a_state_of_another_scene_is_refused() {
     .unwrap();
     let first = first.unwrap();
     let refused = |scene: &Scene, state: &SavedState| {
-        let solved = solve_steps(scene, Some(state), |_| panic!("solved"));
+        let solved = solve_steps(scene, Some(state), |_| unreachable!("solved"));
         solved.unwrap_err().to_string()
     };
     let other = scene(&block(&json!({"at": [0.2, 0.3]})));

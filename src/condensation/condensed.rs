@@ -201,7 +201,7 @@ fn join(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::body::samples::{block, body, distorted, facets};
+    use crate::body::samples::{body, distorted, facets};
     use crate::body::{CellKind, Facet, Load, Material, Mesh, Model, Support, graded, rectangle};
     use crate::condensation::{Obstacle, Opposite};
     use faer::linalg::solvers::Solve;
