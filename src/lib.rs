@@ -41,7 +41,7 @@ pub use condensation::ContactProblem;
 pub use dpana::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
-pub use pipeline::{Solution, limit, solve, solve_steps};
+pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep};
 pub use scene::Scene;
 
 /// The programs of the README, run as tests.

@@ -3,6 +3,7 @@
 
 mod limit;
 mod steps;
+mod sweep;
 
 use std::path::Path;
 use std::time::Instant;
@@ -18,6 +19,7 @@ use crate::scene::{Mechanics, Scene};
 
 pub use limit::limit;
 pub use steps::{SolvedStep, solve_steps};
+pub use sweep::{Variation, sweep};
 
 /// Solves a scene; one with load steps to its end, or to the first state that is not certified.
 ///

@@ -34,7 +34,7 @@ impl Chain {
         Self {
             stiffness,
             load: vec![1.0, 0.2, 2.5, 0.7, 1.6],
-            bound: vec![0.8, 0.3, 1.1, 0.9, 0.4],
+            bound: vec![0.5, 1.6, 1.1, 2.2, 0.4],
         }
     }
 

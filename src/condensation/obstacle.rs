@@ -16,7 +16,7 @@ use crate::error::{Error, check_finite};
 /// Sine of the largest angle by which a direction may leave the plane of a 2D body.
 const IN_PLANE: f64 = 1e-12;
 
-/// A rigid body that does not move.
+/// A rigid body; it moves only where a load history moves it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Obstacle {
     /// Half-space behind a plane.

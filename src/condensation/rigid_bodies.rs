@@ -136,7 +136,11 @@ fn moved(contact: &ContactNode, index: usize, mode: &[f64], axes: usize) -> [f64
     moved
 }
 
-fn mode_loads(groundings: &[impl Borrow<Grounding>], forces: &[impl AsRef<[f64]>]) -> Vec<f64> {
+/// e of (C3): work of nodal forces per body on the free modes, in newton.
+pub(super) fn mode_loads(
+    groundings: &[impl Borrow<Grounding>],
+    forces: &[impl AsRef<[f64]>],
+) -> Vec<f64> {
     let of_bodies = groundings.iter().map(Borrow::borrow).zip(forces);
     of_bodies
         .flat_map(|(grounding, forces)| {

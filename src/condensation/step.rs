@@ -6,6 +6,7 @@
 //! (C14)  u_ref,N = d_N,   u_ref,T = d_T + slip of the last state      d: per contact, zero between bodies
 //! ```
 
+use super::rigid_bodies::mode_loads;
 use super::{Condensed, Floating};
 use crate::body::{self, Body};
 use crate::error::{Error, check_finite, check_length};
@@ -52,10 +53,25 @@ impl Condensed {
         }
         let mut problem = self.problem.step(free, self.reference(obstacles, slip))?;
         if let Some(floating) = problem.floating() {
-            let moved = Floating::new(floating.modes().to_owned(), self.mode_loads())?;
+            let groundings: Vec<_> = self.bodies.iter().map(|body| &body.grounding).collect();
+            let loads: Vec<_> = self.bodies.iter().map(|body| body.load()).collect();
+            let load = mode_loads(&groundings, &loads);
+            let moved = Floating::new(floating.modes().to_owned(), load)?;
             problem = problem.float(moved)?;
         }
         self.problem = problem;
+        Ok(())
+    }
+
+    /// Takes other coefficients of friction and other gaps before loading, in metre; both per
+    /// contact. Contacts that were condensed without friction have no tangents and stay smooth.
+    ///
+    /// # Errors
+    ///
+    /// Lengths that do not fit, a NaN or infinity, a negative coefficient.
+    pub fn replace(&mut self, friction: Vec<f64>, initial_gap: Vec<f64>) -> Result<(), Error> {
+        let problem = self.problem.with_friction(friction)?;
+        self.problem = problem.with_initial_gap(initial_gap)?;
         Ok(())
     }
 
@@ -88,17 +104,6 @@ impl Condensed {
         }
         reference
     }
-
-    /// e of (C3).
-    fn mode_loads(&self) -> Vec<f64> {
-        let of_bodies = self.bodies.iter();
-        of_bodies
-            .flat_map(|body| {
-                let modes = body.grounding.modes.col_iter();
-                modes.map(|mode| mode.iter().zip(body.load()).map(|(r, f)| r * f).sum())
-            })
-            .collect()
-    }
 }
 
 /// Values may change, what is held may not: it is in the factor.
@@ -129,7 +134,7 @@ mod tests {
     use super::*;
     use crate::body::samples::{distorted, facets};
     use crate::body::{CellKind, Load, Support};
-    use crate::condensation::{ContactPair, Obstacle, Opposite};
+    use crate::condensation::{ContactPair, ContactProblem, Obstacle, Opposite};
 
     /// A distorted block above a plane, held on its right, pressed from above.
     fn pressed(moved: f64, pressure: f64, plane: f64) -> (Body, ContactPair) {
@@ -185,7 +190,7 @@ mod tests {
         condensed.act(&bodies, &lift, &slip).unwrap();
         let (_, near) = pressed(0.0, 0.3, -0.375);
         let near = Condensed::new(&bodies, &[near]).unwrap();
-        let left = |problem: &crate::condensation::ContactProblem| -> Vec<f64> {
+        let left = |problem: &ContactProblem| -> Vec<f64> {
             let pairs = problem
                 .initial_gap()
                 .iter()

@@ -16,6 +16,7 @@ pub(super) fn summary(report: &Report) -> String {
         .and_then(|()| match &report.failure {
             Some(failure) => missing(&mut text, failure),
             None => totals(&mut text, report)
+                .and_then(|()| energy(&mut text, report))
                 .and_then(|()| pairs(&mut text, report))
                 .and_then(|()| violations(&mut text, report)),
         })
@@ -35,6 +36,14 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
     let extent = &report.size;
     if !report.title.is_empty() {
         writeln!(text, "{}", report.title)?;
+    }
+    if let Some(step) = &report.step {
+        writeln!(
+            text,
+            "step            {} at {}",
+            step.number,
+            number(step.at)
+        )?;
     }
     writeln!(text, "status          {status}")?;
     if report.failure.is_none() {
@@ -86,6 +95,21 @@ fn totals(text: &mut String, report: &Report) -> std::fmt::Result {
     let (area, slipping) = (number(totals.contact_area), number(totals.slip_area));
     writeln!(text, "contact area    {area}, slipping {slipping}")?;
     writeln!(text, "peak pressure   {}", number(totals.peak_pressure))
+}
+
+/// Where the work of a load history went so far.
+fn energy(text: &mut String, report: &Report) -> std::fmt::Result {
+    let Some(step) = &report.step else {
+        return Ok(());
+    };
+    let total = &step.total;
+    let work = number(total.loads + total.supports + total.obstacles);
+    let (elastic, friction) = (number(total.elastic), number(total.dissipation));
+    let open = size(total.closure);
+    writeln!(
+        text,
+        "energy          work {work}, elastic {elastic}, friction {friction}, unexplained {open}"
+    )
 }
 
 /// One line per contact pair, if there are several.

@@ -37,7 +37,7 @@ pub struct SceneSurface {
     pub group: String,
 }
 
-/// A rigid body that does not move; vectors have one entry per axis.
+/// A rigid body, which only `steps` can move; vectors have one entry per axis.
 #[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneObstacle {

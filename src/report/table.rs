@@ -1,0 +1,153 @@
+//! Totals of many states: a row per load step or per case.
+
+use serde::Serialize;
+
+use super::{Report, Status};
+
+/// An entry of a table.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub enum Cell {
+    /// A number; one that is not finite is written as nothing.
+    Number(f64),
+    /// A count.
+    Count(usize),
+    /// A word.
+    Word(&'static str),
+}
+
+/// Rows under named columns.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Table {
+    /// Names of the columns.
+    pub columns: Vec<String>,
+    /// The rows, an entry per column.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+impl Table {
+    /// Appends the totals of a report, behind `given` values; all of one table have the same.
+    pub fn push(&mut self, given: &[(String, f64)], report: &Report) {
+        let given = given.iter().cloned();
+        let given = given.map(|(name, value)| (name, Cell::Number(value)));
+        let (columns, row) = given.chain(totals(report)).unzip();
+        self.columns = columns;
+        self.rows.push(row);
+    }
+
+    /// Values of a column; those that are no numbers are NaN. None if there is no such column.
+    #[must_use]
+    pub fn column(&self, name: &str) -> Option<Vec<f64>> {
+        let at = self.columns.iter().position(|column| column == name)?;
+        let numbers = self.rows.iter().map(|row| match row.get(at) {
+            Some(Cell::Number(value)) => *value,
+            Some(Cell::Count(count)) => *count as f64,
+            Some(Cell::Word(_)) | None => f64::NAN,
+        });
+        Some(numbers.collect())
+    }
+
+    /// The table as comma-separated values, every number with all its digits.
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let mut text = self.columns.join(",") + "\n";
+        for row in &self.rows {
+            let entries: Vec<String> = row.iter().map(Cell::text).collect();
+            text += &(entries.join(",") + "\n");
+        }
+        text
+    }
+
+    /// The table as JSON.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        // Plain structs with string keys: there is nothing that could fail to serialise.
+        serde_json::to_string_pretty(self).unwrap_or_default()
+    }
+}
+
+impl Cell {
+    fn text(&self) -> String {
+        match self {
+            Self::Number(value) if value.is_finite() => format!("{value:?}"),
+            Self::Number(_) => String::new(),
+            Self::Count(count) => count.to_string(),
+            Self::Word(word) => (*word).to_owned(),
+        }
+    }
+}
+
+/// What a table tells of a state.
+fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
+    let (totals, number) = (&report.totals, |name: &str, value| {
+        (name.to_owned(), Cell::Number(value))
+    });
+    let count = |name: &str, value| (name.to_owned(), Cell::Count(value));
+    let vector = |name: &'static str, components: &[f64]| {
+        let axes = ["x", "y", "z"].into_iter().zip(components.to_vec());
+        axes.map(move |(axis, value)| (format!("{name}_{axis}"), Cell::Number(value)))
+            .collect::<Vec<_>>()
+    };
+    let mut row = vec![("status".to_owned(), Cell::Word(word(report.status)))];
+    row.extend([
+        number("natural_map", report.certificate.natural_map),
+        count("open", totals.open),
+        count("stick", totals.stick),
+        count("slip", totals.slip),
+        number("normal", totals.normal),
+    ]);
+    row.extend(vector("friction", &totals.friction));
+    row.extend(vector("contact_force", &totals.contact_force));
+    row.extend([
+        number("contact_area", totals.contact_area),
+        number("slip_area", totals.slip_area),
+        number("peak_pressure", totals.peak_pressure),
+        number(
+            "least_gap",
+            extreme(report, |contact| contact.gap, f64::min),
+        ),
+        number(
+            "largest_gap",
+            extreme(report, |contact| contact.gap, f64::max),
+        ),
+        number(
+            "largest_slip",
+            extreme(report, |contact| length(&contact.slip), f64::max),
+        ),
+        count("sweeps", report.work.sweeps),
+        count("newton_steps", report.work.newton_steps),
+        count("factorisations", report.work.factorisations),
+    ]);
+    if let Some(step) = &report.step {
+        row.extend([
+            number("work_of_loads", step.total.loads),
+            number("work_of_supports", step.total.supports),
+            number("work_of_obstacles", step.total.obstacles),
+            number("elastic_energy", step.total.elastic),
+            number("dissipation", step.total.dissipation),
+            number("closure", step.total.closure),
+        ]);
+    }
+    row.into_iter()
+}
+
+fn extreme(
+    report: &Report,
+    value: impl Fn(&super::Contact) -> f64,
+    of_two: fn(f64, f64) -> f64,
+) -> f64 {
+    let values = report.contacts.iter().map(value);
+    values.reduce(of_two).unwrap_or(f64::NAN)
+}
+
+fn length(vector: &[f64]) -> f64 {
+    vector.iter().fold(0.0, |size: f64, u| size.hypot(*u))
+}
+
+fn word(status: Status) -> &'static str {
+    match status {
+        Status::Certified => "certified",
+        Status::NotConverged => "not_converged",
+        Status::NoEquilibrium => "no_equilibrium",
+    }
+}

@@ -1,0 +1,206 @@
+//! Load histories and sweeps from the command line: what they leave on disk.
+#![allow(clippy::unwrap_used)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/fretting.json");
+
+/// A folder of its own per test, below the build folder.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = fs::remove_dir_all(&folder);
+    fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn dpana(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_dpana"))
+        .current_dir(folder)
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn solved(folder: &Path, arguments: &[&str]) -> String {
+    let output = dpana(folder, &[&["solve", SCENE], arguments].concat());
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn refused(folder: &Path, arguments: &[&str]) -> String {
+    let output = dpana(folder, arguments);
+    assert_eq!(output.status.code(), Some(2));
+    String::from_utf8(output.stderr).unwrap()
+}
+
+/// A column of a table in CSV, as text.
+fn column(table: &str, name: &str) -> Vec<String> {
+    let mut lines = table.lines();
+    let at = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .position(|column| column == name)
+        .unwrap();
+    lines
+        .map(|line| line.split(',').nth(at).unwrap().to_owned())
+        .collect()
+}
+
+#[test]
+fn a_history_leaves_a_table_a_plot_and_a_series() {
+    let folder = folder("steps_outputs");
+    let loop_axes = "bodies[0].supports[1],friction_x";
+    let said = solved(
+        &folder,
+        &[
+            "--table", "t.csv", "--plot", "loop.svg", "--axes", loop_axes, "--vtu", "pad.vtu",
+        ],
+    );
+    assert!(
+        said.contains("step            18 at 5") && said.contains("energy          work"),
+        "{said}"
+    );
+    let table = fs::read_to_string(folder.join("t.csv")).unwrap();
+    assert_eq!(column(&table, "step").len(), 18);
+    assert_eq!(column(&table, "at")[..3], ["0.5", "1.0", "1.25"]);
+    assert_eq!(column(&table, "bodies[0].supports[1]")[5], "1.0");
+    assert!(
+        column(&table, "status")
+            .iter()
+            .all(|status| status == "certified")
+    );
+    assert!(
+        column(&table, "factorisations")
+            .iter()
+            .all(|count| count == "1")
+    );
+    // Friction never gives work back.
+    let dissipated: Vec<f64> = column(&table, "dissipation")
+        .iter()
+        .map(|value| value.parse().unwrap())
+        .collect();
+    assert!(dissipated.windows(2).all(|two| two[0] <= two[1]) && dissipated[17] > 0.0);
+    // A point of the plot per state.
+    let plot = fs::read_to_string(folder.join("loop.svg")).unwrap();
+    let points = plot
+        .split("points=\"")
+        .nth(1)
+        .unwrap()
+        .split('"')
+        .next()
+        .unwrap();
+    assert_eq!(points.split(' ').count(), 18);
+    let series = fs::read_to_string(folder.join("pad.pvd")).unwrap();
+    assert_eq!(series.matches("<DataSet").count(), 18);
+    assert!(series.contains("timestep=\"1.25\" file=\"pad_0003.vtu\""));
+    for file in ["pad_0001.vtu", "pad_0018.vtu", "pad_0018_contact.vtu"] {
+        assert!(folder.join(file).is_file(), "{file}");
+    }
+    assert!(!folder.join("pad.vtu").exists());
+}
+
+#[test]
+fn a_history_taken_on_from_a_file_ends_in_the_same_report() {
+    let folder = folder("steps_restart");
+    // A scene that ends early leaves its state.
+    let scene = fs::read_to_string(SCENE).unwrap();
+    let early = scene.replace(", 3.25, 3.5, 3.75, 4, 4.25, 4.5, 4.75, 5]", "]");
+    assert_ne!(early, scene);
+    fs::write(folder.join("early.json"), early).unwrap();
+    let output = dpana(&folder, &["solve", "early.json", "--state", "state.json"]);
+    assert_eq!(output.status.code(), Some(0));
+    solved(&folder, &["--table", "whole.csv"]);
+    solved(&folder, &["--table", "rest.csv", "--restart", "state.json"]);
+    let [whole, rest] =
+        ["whole.csv", "rest.csv"].map(|file| fs::read_to_string(folder.join(file)).unwrap());
+    let [whole, rest]: [Vec<&str>; 2] = [&whole, &rest].map(|table| table.lines().collect());
+    assert_eq!(rest[0], whole[0]);
+    assert_eq!(rest[1..], whole[11..]);
+
+    fs::write(
+        folder.join("damaged.json"),
+        "{\"steps\": 3, \"at\": \"soon\"}",
+    )
+    .unwrap();
+    let said = refused(&folder, &["solve", SCENE, "--restart", "damaged.json"]);
+    assert!(
+        said.contains("damaged.json:1") && said.contains("`soon` is no number"),
+        "{said}"
+    );
+    let said = refused(&folder, &["solve", SCENE, "--restart", "absent.json"]);
+    assert!(said.contains("--restart absent.json"), "{said}");
+}
+
+#[test]
+fn outputs_and_values_that_make_no_sense_are_refused() {
+    let folder = folder("steps_refused");
+    let said = refused(&folder, &["solve", SCENE, "--table", "a", "--state", "a"]);
+    assert!(said.contains("--table, --state: the same file"), "{said}");
+    let said = refused(
+        &folder,
+        &["solve", SCENE, "--plot", "p.svg", "--axes", "at"],
+    );
+    assert!(said.contains("expected two columns"), "{said}");
+    let said = refused(
+        &folder,
+        &["solve", SCENE, "--plot", "p.svg", "--axes", "at,force"],
+    );
+    assert!(
+        said.contains("no column `force`") && said.contains("contact_force_x"),
+        "{said}"
+    );
+    for values in [
+        "friction",
+        "friction=",
+        "friction=0:1",
+        "friction=0:1:1",
+        "friction=0:1:many",
+    ] {
+        let said = refused(
+            &folder,
+            &["sweep", SCENE, "--vary", values, "--out", "t.csv"],
+        );
+        assert!(
+            said.contains("expected NAME=FROM:TO:COUNT"),
+            "{values}: {said}"
+        );
+    }
+    let said = refused(
+        &folder,
+        &["sweep", SCENE, "--vary", "gap=0", "--out", "t.csv"],
+    );
+    assert!(said.contains("a scene without steps"), "{said}");
+    assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
+}
+
+#[test]
+fn a_sweep_to_json_holds_columns_and_rows() {
+    let folder = folder("sweep_json");
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/ssnv128.json");
+    let output = dpana(
+        &folder,
+        &[
+            "sweep",
+            scene,
+            "--vary",
+            "friction=0.5:1:3",
+            "--out",
+            "t.json",
+        ],
+    );
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = fs::read_to_string(folder.join("t.json")).unwrap();
+    let table: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(table["columns"][0], "friction");
+    let friction: Vec<f64> = table["rows"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|row| row[0].as_f64().unwrap())
+        .collect();
+    assert_eq!(friction, [0.5, 0.75, 1.0]);
+}
