@@ -95,9 +95,9 @@ impl<'a> Exact<'a> {
         let way = (factor - self.factor).signum();
         let mut slips = vec![false; count];
         while self.factor != factor {
-            for i in 0..count {
+            for (i, slips) in slips.iter_mut().enumerate() {
                 let edge = -way * self.chain.bound[i];
-                slips[i] |= (self.friction[i] - edge).abs() < 1e-13;
+                *slips |= (self.friction[i] - edge).abs() < 1e-13;
             }
             let (velocity, growth) = self.rates(&slips);
             let mut step = (factor - self.factor).abs();
