@@ -95,9 +95,9 @@ impl<'a> Exact<'a> {
         let way = (factor - self.factor).signum();
         let mut slips = vec![false; count];
         while self.factor != factor {
-            for i in 0..count {
+            for (i, slips) in slips.iter_mut().enumerate() {
                 let edge = -way * self.chain.bound[i];
-                slips[i] |= (self.friction[i] - edge).abs() < 1e-13;
+                *slips |= (self.friction[i] - edge).abs() < 1e-13;
             }
             let (velocity, growth) = self.rates(&slips);
             let mut step = (factor - self.factor).abs();
@@ -273,4 +273,61 @@ fn a_step_that_does_not_fit_is_refused_by_name() {
     assert!(solve_from(&problem, &settings, &[0.0; 10], &[1.0]).is_err());
     assert!(problem.with_friction(vec![-1.0; 5]).is_err());
     assert!(problem.with_initial_gap(vec![0.0; 4]).is_err());
+}
+
+/// Numbers between −1 and 1, always the same for a seed.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}
+
+#[test]
+fn from_the_last_state_or_from_nothing_a_step_in_space_is_the_same() {
+    for seed in 1..=12 {
+        let mut random = Random(seed);
+        let (contacts, size) = (8, 24);
+        let factor = Mat::from_fn(size, size, |_, _| random.next());
+        let product = &factor * factor.transpose();
+        let compliance = Mat::from_fn(size, size, |i, j| {
+            product[(i, j)] + if i == j { 4.0 } else { 0.0 }
+        });
+        let operator = Operator::from_compliance(compliance).unwrap();
+        let (friction, gaps) = (vec![0.2; contacts], vec![0.05; contacts]);
+        let first = ContactProblem::new(&[2; 8], friction, gaps, vec![0.0; size], operator);
+        let mut problem = first.unwrap();
+        let mut outcome = certified(&problem, None);
+        let (mut free, mut changed) = (vec![0.0; size], 0);
+        for step in 0..25 {
+            let push = if step < 5 { 0.6 } else { 0.0 };
+            for (unknown, u) in free.iter_mut().enumerate() {
+                let normal = unknown % 3 == 0;
+                *u += 0.5 * random.next() + if normal { push } else { 0.0 };
+            }
+            problem = problem
+                .step(free.clone(), slip(&problem, &outcome))
+                .unwrap();
+            let near = certified(&problem, Some(&outcome));
+            let cold = certified(&problem, None);
+            let size = cold
+                .reaction
+                .iter()
+                .fold(0.0_f64, |size, t| size.max(t.abs()));
+            for (a, b) in near.reaction.iter().zip(&cold.reaction) {
+                assert!((a - b).abs() <= 1e-9 * size, "{seed} {step}: {a} {b}");
+            }
+            changed += usize::from(near.verdict.status != outcome.verdict.status);
+            outcome = near;
+        }
+        assert!(
+            changed > 10,
+            "contacts open, close, stick and slip: {changed}"
+        );
+    }
 }

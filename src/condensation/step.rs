@@ -23,7 +23,7 @@ impl Condensed {
     /// # Errors
     ///
     /// Lengths that do not fit, contradictory supports, a support where there was none or none
-    /// where there was one, a NaN or infinity. The state is then as it was before.
+    /// where there was one, a NaN or infinity.
     pub fn act(
         &mut self,
         bodies: &[Body],

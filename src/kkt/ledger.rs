@@ -186,3 +186,54 @@ impl ContactStep<'_> {
             .sum()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::Operator;
+    use faer::Mat;
+
+    /// One contact with μ = 0.5 that slips by 0.5 m while its obstacle follows it by 0.1 m.
+    fn ledger(before: [f64; 2], after: [f64; 2]) -> Ledger {
+        let operator = Operator::from_compliance(Mat::identity(2, 2)).unwrap();
+        let problem = ContactProblem::new(&[1], vec![0.5], vec![0.0], vec![0.0; 2], operator);
+        let none = Account::default();
+        let contacts = ContactStep {
+            problem: &problem.unwrap(),
+            reaction: [&before, &after],
+            displacement: &[0.0, 0.5],
+            moved: &[0.1, 0.0],
+        };
+        Ledger::new(&none, &none, &contacts).unwrap()
+    }
+
+    #[test]
+    fn slip_under_a_growing_bound_dissipates_the_mean_of_its_ends() {
+        let found = ledger([-2.0, -1.0], [-4.0, -2.0]);
+        // ½ (1 + 2) N · 0.5 m; the obstacle presses with −½ (2 + 4) N over 0.1 m.
+        assert!((found.dissipation - 0.75).abs() < 1e-15);
+        assert!((found.obstacles + 0.3).abs() < 1e-15);
+        assert!((found.closure + 0.3 + 0.75).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_contact_that_ends_open_moves_freely() {
+        assert_eq!(ledger([-2.0, -1.0], [0.0, 0.0]).dissipation, 0.0);
+    }
+
+    #[test]
+    fn friction_that_turns_within_a_step_gives_nothing_back() {
+        // Slid the other way before: 1 N · 0.5 m, though the mean force is zero.
+        let found = ledger([-2.0, 1.0], [-2.0, -1.0]);
+        assert!((found.dissipation - 0.5).abs() < 1e-15);
+    }
+
+    #[test]
+    fn two_steps_add_up() {
+        let one = ledger([-2.0, -1.0], [-4.0, -2.0]);
+        let both = one.plus(&one);
+        assert_eq!(both.dissipation, 2.0 * one.dissipation);
+        assert_eq!(both.closure, 2.0 * one.closure);
+    }
+}

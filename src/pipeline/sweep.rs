@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use super::Setup;
 use crate::body::{Body, Load, Support};
 use crate::condensation::{ContactPair, ContactProblem, Opposite};
-use crate::dpana::{self, Outcome};
+use crate::dpana::{self, Outcome, Settings, Status};
 use crate::error::{Error, check_finite};
 use crate::report::Table;
 use crate::scene::Scene;
@@ -29,8 +29,9 @@ pub struct Variation {
 /// Solves a scene for every combination of values, all on one factorisation, and tabulates totals,
 /// extremes, status and certificate; the last variation changes fastest.
 ///
-/// Every case is solved from nothing, cases side by side on the threads of the current pool: the
-/// table does not depend on their number.
+/// Along the last variation every case starts from the one before, if that is certified; the rows
+/// are solved side by side on the threads of the current pool: the table does not depend on
+/// their number.
 ///
 /// # Errors
 ///
@@ -82,13 +83,14 @@ pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
         .map(|values| stated.put(&mut setup, &drives, values))
         .collect::<Result<_, _>>()
         .map_err(at_scene)?;
-    let outcomes: Vec<Outcome> = problems
-        .par_iter()
-        .map(|problem| dpana::solve(problem, &setup.settings))
+    let row = variations.last().map_or(1, |last| last.values.len());
+    let outcomes: Vec<Vec<Outcome>> = problems
+        .par_chunks(row.max(1))
+        .map(|row| neighbours(row, &setup.settings))
         .collect::<Result<_, _>>()
         .map_err(at_scene)?;
     let mut table = Table::default();
-    for (values, outcome) in cases.iter().zip(outcomes) {
+    for (values, outcome) in cases.iter().zip(outcomes.into_iter().flatten()) {
         stated.put(&mut setup, &drives, values).map_err(at_scene)?;
         let solution = setup.recover(outcome)?;
         let names = variations.iter().map(|variation| variation.name.clone());
@@ -97,6 +99,20 @@ pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
         setup = solution.setup;
     }
     Ok(table)
+}
+
+/// Solves problems that differ little, each from the solution of the one before.
+fn neighbours(row: &[ContactProblem], settings: &Settings) -> Result<Vec<Outcome>, Error> {
+    let mut outcomes: Vec<Outcome> = Vec::with_capacity(row.len());
+    for problem in row {
+        let before = outcomes.last().filter(|o| o.status == Status::Certified);
+        let outcome = match before {
+            Some(near) => dpana::solve_from(problem, settings, &near.reaction, &near.motion),
+            None => dpana::solve(problem, settings),
+        };
+        outcomes.push(outcome?);
+    }
+    Ok(outcomes)
 }
 
 /// All combinations of values, the last varying fastest; one without values if nothing varies.
