@@ -28,6 +28,7 @@
 //! The README has a program for either way, the signs, and the scene format.
 
 pub mod body;
+pub mod closed_forms;
 pub mod condensation;
 pub mod cone;
 pub mod dpana;
