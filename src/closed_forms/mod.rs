@@ -12,6 +12,7 @@
 //! (E9)  ε_x = [(1−ν²) σ_x − ν (1+ν) σ_y]/E, and x, y exchanged                  uniform_patch.rs
 //! (E10) F/W = (tan α + μ)/(1 − μ tan α)                                        wedge.rs
 //! (E11) N = W cos α,  T = W sin α;  sticks: tan α ≤ μ;  tips: tan α > width/height   incline.rs
+//! (E12) u_z = P/(4πG) [z²/ρ³ + 2 (1−ν)/ρ],  u_r = P/(4πG) [r z/ρ³ − (1−2ν) r/(ρ (ρ+z))]   boussinesq.rs
 //! ```
 //!
 //! Units are those of one consistent system; forces of plane problems are per metre of depth.
@@ -22,11 +23,12 @@
 //! Every function refuses arguments for which its form does not hold: a NaN, a length that is not
 //! positive, a tangential load beyond friction.
 //!
-//! (E1)–(E6): Johnson, Contact Mechanics, Cambridge 1985, §2.8, §4.2, §5.1, §7.2.
+//! (E1)–(E6), (E12): Johnson, Contact Mechanics, Cambridge 1985, ch. 2–5 and 7.
 //! (E7): Abramowitz, Stegun, Handbook of Mathematical Functions, 1964, §17.6.
 //! (E8): Goodman, J. Appl. Mech. 29 (1962) 515–522; Spence, J. Elasticity 5 (1975) 297–319.
 //! (E10): NAFEMS CGS-4.
 
+mod boussinesq;
 mod cattaneo_mindlin;
 mod elliptic;
 mod flat_punch;
@@ -41,6 +43,7 @@ mod stick_ratio;
 mod uniform_patch;
 mod wedge;
 
+pub use boussinesq::Boussinesq;
 pub use cattaneo_mindlin::CattaneoMindlin;
 pub use elliptic::elliptic_k;
 pub use flat_punch::{FlatLinePunch, FlatRoundPunch};

@@ -13,7 +13,7 @@ pub struct Elastic {
 }
 
 impl Elastic {
-    fn check(self) -> Result<Self, Error> {
+    pub(super) fn check(self) -> Result<Self, Error> {
         positive("young", self.young)?;
         let accept = self.poisson > -1.0 && self.poisson <= 0.5;
         within("poisson", self.poisson, accept, "-1 < poisson <= 0.5")?;
@@ -26,7 +26,7 @@ impl Elastic {
     }
 
     /// `1/G = 2 (1 + ν)/E`, in 1/Pa.
-    fn shear_compliance(self) -> f64 {
+    pub(super) fn shear_compliance(self) -> f64 {
         2.0 * (1.0 + self.poisson) / self.young
     }
 }

@@ -14,6 +14,7 @@ mod motion;
 mod notes;
 mod summary;
 mod totals;
+mod verification;
 pub mod vtu;
 mod work;
 
@@ -27,6 +28,7 @@ pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
 pub use motion::Motion;
 pub(crate) use motion::motions;
 pub use totals::{Exchange, PairTotals, Totals};
+pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
 use crate::body::Body;
