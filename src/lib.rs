@@ -23,11 +23,14 @@
 //! | outer loop | [`mod@dpana`] | reactions, by sweeps and a Newton finish |
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
+//! | closed forms | [`closed_forms`] | answers that need no mesh |
+//! | verification | [`mod@verify`] | scenes whose answers are known, on ladders of meshes |
 //!
 //! A problem that another code condensed goes straight to [`dpana::solve`](dpana::solve()).
 //! The README has a program for either way, the signs, and the scene format.
 
 pub mod body;
+pub mod closed_forms;
 pub mod condensation;
 pub mod cone;
 pub mod dpana;
@@ -36,6 +39,7 @@ pub mod kkt;
 pub mod pipeline;
 pub mod report;
 pub mod scene;
+pub mod verify;
 
 pub use condensation::ContactProblem;
 pub use dpana::{Outcome, Settings, Status};
@@ -43,6 +47,7 @@ pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep};
 pub use scene::Scene;
+pub use verify::verify;
 
 /// The programs of the README, run as tests.
 #[cfg(doctest)]

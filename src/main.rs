@@ -1,4 +1,4 @@
-//! The command line: solve, sweep, limit, check, schema.
+//! The command line: solve, sweep, limit, check, schema, verify.
 
 use std::error::Error;
 use std::fs;
@@ -39,6 +39,8 @@ enum Command {
     },
     /// Print the JSON Schema of scenes.
     Schema,
+    /// Compute scenes whose answers are known, and say by how much they miss them.
+    Verify(Verify),
 }
 
 #[derive(Args)]
@@ -96,6 +98,16 @@ struct Limit {
     report: Option<PathBuf>,
 }
 
+#[derive(Args)]
+struct Verify {
+    /// Leave out the finest meshes.
+    #[arg(long)]
+    quick: bool,
+    /// Write every number to this file, in JSON.
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+}
+
 fn main() -> ExitCode {
     let done = match CommandLine::parse().command {
         Command::Solve(arguments) => solve(&arguments),
@@ -103,6 +115,7 @@ fn main() -> ExitCode {
         Command::Limit(arguments) => limit(&arguments),
         Command::Check { scene } => check(&scene),
         Command::Schema => schema(),
+        Command::Verify(arguments) => verify(&arguments),
     };
     done.unwrap_or_else(|error| {
         // With standard error closed there is nobody left to tell.
@@ -313,6 +326,21 @@ fn schema() -> Result<ExitCode, Box<dyn Error>> {
     Ok(ExitCode::SUCCESS)
 }
 
+fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
+    if let Some(output) = &arguments.report {
+        check_writable("--report", output)?;
+    }
+    let verification = dpana::verify(arguments.quick)?;
+    if let Some(path) = &arguments.report {
+        replace_file(path, &verification.to_json())?;
+    }
+    writeln!(io::stdout(), "{}", verification.summary().trim_end())?;
+    Ok(match verification.passed {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(1),
+    })
+}
+
 /// Refuses outputs that could not be written, or that would overwrite each other.
 fn check_outputs(arguments: &Solve) -> Result<(), String> {
     let outputs = [
@@ -337,16 +365,24 @@ fn check_outputs(arguments: &Solve) -> Result<(), String> {
 
 /// Refuses an output file that could not be written, before any time goes into the solve.
 fn check_output(option: &str, output: &Path, scene: &Path) -> Result<(), String> {
+    check_writable(option, output)?;
+    let same = |path: &Path| fs::canonicalize(path).ok();
+    if same(output).is_some_and(|output| Some(output) == same(scene)) {
+        return Err(format!(
+            "{option} {}: would overwrite the scene; expected another file",
+            output.display()
+        ));
+    }
+    Ok(())
+}
+
+fn check_writable(option: &str, output: &Path) -> Result<(), String> {
     let refuse = |reason: &str| Err(format!("{option} {}: {reason}", output.display()));
     if output.is_dir() || output.file_name().is_none() {
         return refuse("is a folder; expected a file name");
     }
     if !folder(output).is_dir() {
         return refuse("its folder does not exist; expected an existing folder");
-    }
-    let same = |path: &Path| fs::canonicalize(path).ok();
-    if same(output).is_some_and(|output| Some(output) == same(scene)) {
-        return refuse("would overwrite the scene; expected another file");
     }
     Ok(())
 }

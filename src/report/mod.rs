@@ -17,6 +17,7 @@ mod step;
 mod summary;
 mod table;
 mod totals;
+mod verification;
 pub mod vtu;
 mod work;
 
@@ -33,6 +34,7 @@ pub use plot::plot;
 pub use step::{Ledger, Step};
 pub use table::{Cell, Table};
 pub use totals::{Exchange, PairTotals, Totals};
+pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
 use crate::body::Body;

@@ -1,0 +1,84 @@
+//! VERIFICATION: a gallery of scenes whose answers are known, each on a ladder of meshes.
+//!
+//! ```text
+//! (V1)  error = |computed/exact − 1|,  or a relative norm over the contacts
+//! (V2)  rate  = slope of ln error over ln size, least squares over the ladder
+//! ```
+//!
+//! Known means: a closed form, a published value, or a value that was computed independently. The
+//! contact zone ends anywhere between two nodes, so its errors scatter with the load by as much as
+//! they fall with a mesh: the Hertz scenes take the mean over several loads per mesh. All meshes are
+//! generated here.
+
+mod growing;
+mod hertz_line;
+mod hertz_sphere;
+mod incline;
+mod konter;
+mod ladder;
+mod pad;
+mod scenes;
+mod ssnv128;
+mod two_blocks;
+mod two_parabolas;
+mod uniform_patch;
+mod wedge;
+
+use std::time::Instant;
+
+use crate::error::Error;
+use crate::report::{Verification, VerifiedQuantity, VerifiedScene};
+
+/// One scene of the gallery, before it is computed.
+struct Entry {
+    name: &'static str,
+    source: &'static str,
+    /// What keeps the error from vanishing.
+    floor: &'static str,
+    /// Computes it; without the finest meshes if `quick`.
+    measure: fn(quick: bool) -> Result<Vec<VerifiedQuantity>, Error>,
+}
+
+const GALLERY: [Entry; 10] = [
+    uniform_patch::ENTRY,
+    two_blocks::ENTRY,
+    ssnv128::ENTRY,
+    hertz_line::ENTRY,
+    two_parabolas::ENTRY,
+    hertz_sphere::ENTRY,
+    konter::ENTRY,
+    incline::ENTRY,
+    wedge::ENTRY,
+    pad::ENTRY,
+];
+
+/// Computes the gallery; `quick` leaves out the finest meshes.
+///
+/// # Errors
+///
+/// None unless a scene of the gallery is broken: a quantity that misses its criterion is told in
+/// the result.
+pub fn verify(quick: bool) -> Result<Verification, Error> {
+    let scenes = GALLERY.iter().map(|entry| entry.verify(quick));
+    let scenes: Vec<VerifiedScene> = scenes.collect::<Result<_, _>>()?;
+    Ok(Verification {
+        quick,
+        passed: scenes.iter().all(|scene| scene.passed),
+        scenes,
+    })
+}
+
+impl Entry {
+    fn verify(&self, quick: bool) -> Result<VerifiedScene, Error> {
+        let start = Instant::now();
+        let quantities = (self.measure)(quick).map_err(|error| error.within(self.name))?;
+        Ok(VerifiedScene {
+            name: self.name,
+            source: self.source,
+            floor: self.floor,
+            passed: quantities.iter().all(|quantity| quantity.passed),
+            seconds: start.elapsed().as_secs_f64(),
+            quantities,
+        })
+    }
+}
