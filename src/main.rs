@@ -14,7 +14,8 @@ use dpana::{Solution, Status, Variation};
 
 /// Certified frictional contact of elastic bodies.
 ///
-/// Exit status: 0 certified (or the scene is sound), 1 solved but not certified, 2 bad input.
+/// Exit status: 0 certified (or the scene is sound, or the gallery passes), 1 solved but not
+/// certified (or the gallery does not pass), 2 bad input.
 #[derive(Parser)]
 #[command(version)]
 struct CommandLine {

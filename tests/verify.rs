@@ -5,7 +5,6 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
-use dpana::report::Verification;
 use dpana::verify;
 use serde_json::Value;
 
@@ -15,14 +14,6 @@ fn dpana(arguments: &[&str]) -> Output {
         .args(arguments)
         .output()
         .unwrap()
-}
-
-fn check(gallery: &Verification) {
-    assert!(gallery.passed, "\n{}", gallery.summary());
-    for scene in &gallery.scenes {
-        let judged = scene.quantities.iter().filter(|quantity| quantity.passed);
-        assert_eq!(judged.count(), scene.quantities.len(), "{}", scene.name);
-    }
 }
 
 #[test]
@@ -70,5 +61,14 @@ fn a_report_that_cannot_be_written_is_refused_before_anything_is_computed() {
 #[test]
 #[ignore = "the finest meshes take minutes"]
 fn the_whole_gallery_passes() {
-    check(&verify(false).unwrap());
+    let gallery = verify(false).unwrap();
+    assert!(gallery.passed, "\n{}", gallery.summary());
+    let quantities = gallery.scenes.iter().flat_map(|scene| &scene.quantities);
+    let finest: Vec<_> = quantities
+        .filter_map(|quantity| quantity.ladder.last())
+        .map(|rung| rung.mesh.as_str())
+        .collect();
+    for mesh in ["80 quad4 per mm", "28³ hex8", "0.125 mm quad4"] {
+        assert!(finest.contains(&mesh), "{mesh} is not among {finest:?}");
+    }
 }

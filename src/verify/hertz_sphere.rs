@@ -108,11 +108,13 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
             ladder.climb(&name, size, settled, Measured::mean(&all));
         }
     }
-    let within = |within| Criterion::Converges { within, rate: 1.0 };
+    // (h/a)² of the quick gallery's finest mesh, whose smallest cell is a seventh of the radius.
+    let within = 0.02;
+    let converges = Criterion::Converges { within, rate: 1.0 };
     let [peak, radius, load] = ladders;
     Ok(vec![
-        peak.judge(Criterion::FinestMesh { within: 0.02 }),
-        radius.judge(within(0.03)),
-        load.judge(within(0.02)),
+        peak.judge(Criterion::FinestMesh { within }),
+        radius.judge(converges),
+        load.judge(converges),
     ])
 }

@@ -62,8 +62,8 @@ pub(super) fn scene(mesh: Mesh, friction: f64) -> Scene {
 }
 
 fn measure(_quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
-    let mut limit = Ladder::new("u_x at A to E, limit, worst");
-    let mut row = Ladder::new("u_x at A to E, same mesh");
+    let mut limit = Ladder::new("worst u_x, limit, 1e-6 m");
+    let mut row = Ladder::new("worst u_x, same mesh, 1e-6 m");
     let mut friction = Ladder::new("friction in all, N/m");
     let mut carried = Ladder::new("plane and corner carry, N/m");
     for (cells, of_mesh) in ROWS {

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 pub(super) const ENTRY: Entry = Entry {
     name: "Hertz, two parabolas of steel that do not match",
     source: "Johnson 1985, §4.2 (E3)",
-    floor: "the bodies are a hundred half-widths wide and high, not half-planes: parts in 1e4",
+    floor: "the bodies are a hundred half-widths wide and high, not half-planes: (a/L)² = 1e-4 at most",
     measure,
 };
 
