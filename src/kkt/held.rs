@@ -4,6 +4,7 @@ use faer::MatRef;
 
 use super::certificate::ratio;
 use super::floating::unanswered;
+use super::impossibility::check_blocks;
 use super::resultant::Defect;
 use crate::error::{Error, check_length};
 
@@ -24,7 +25,7 @@ pub struct Held {
 ///
 /// # Errors
 ///
-/// [`Error::Length`] if the arrays do not belong together.
+/// [`Error::Length`] or [`Error::OutOfRange`] if the arrays do not belong together.
 pub fn held(
     offsets: &[usize],
     friction: &[f64],
@@ -32,8 +33,7 @@ pub fn held(
     load: &[f64],
     reaction: &[f64],
 ) -> Result<Held, Error> {
-    check_length("offsets", friction.len() + 1, offsets.len())?;
-    check_length("modes", offsets[friction.len()], modes.nrows())?;
+    check_blocks(offsets, friction.len(), modes.nrows())?;
     check_length("load", modes.ncols(), load.len())?;
     check_length("reaction", modes.nrows(), reaction.len())?;
     let (mut excess, mut largest) = (0.0_f64, 0.0_f64);
@@ -83,5 +83,14 @@ mod tests {
         assert_eq!(measured([0.0, 10.0], [10.0, 0.0]).excess.value, 10.0);
         let broken = measured([0.0, 0.0], [f64::NAN, 0.0]);
         assert_eq!(broken.excess.value, f64::INFINITY);
+    }
+    #[test]
+    fn blocks_that_are_none_are_refused() {
+        let modes = mat![[0.0, -1.0], [1.0, 0.0]];
+        for offsets in [&[0, 3][..], &[1, 2], &[2, 0, 2]] {
+            let friction = vec![0.5; offsets.len() - 1];
+            let found = held(offsets, &friction, modes.as_ref(), &[0.0; 2], &[0.0; 2]);
+            assert!(found.is_err(), "{offsets:?}");
+        }
     }
 }

@@ -39,8 +39,7 @@ pub fn impossibility(
     load: &[f64],
     motion: &[f64],
 ) -> Result<Impossibility, Error> {
-    check_length("offsets", friction.len() + 1, offsets.len())?;
-    check_blocks(offsets, modes.nrows())?;
+    check_blocks(offsets, friction.len(), modes.nrows())?;
     check_length("load", modes.ncols(), load.len())?;
     check_length("motion", modes.ncols(), motion.len())?;
     let velocity: Vec<f64> = (0..modes.nrows())
@@ -68,8 +67,9 @@ pub fn impossibility(
     })
 }
 
-/// Blocks of one entry or more, from the first row to the last.
-fn check_blocks(offsets: &[usize], rows: usize) -> Result<(), Error> {
+/// One block per contact, of one entry or more, from the first row of the modes to the last.
+pub(super) fn check_blocks(offsets: &[usize], contacts: usize, rows: usize) -> Result<(), Error> {
+    check_length("offsets", contacts + 1, offsets.len())?;
     let starts_late = offsets.first().is_some_and(|&first| first > 0);
     let empty = offsets.windows(2).position(|block| block[0] >= block[1]);
     let wrong = if starts_late {
