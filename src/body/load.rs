@@ -10,17 +10,24 @@
 use super::quadrature::{mapped, rule};
 use super::{Body, Facet, Load};
 
-/// Nodal forces, in newton (plane strain: per metre of depth), entry `dimension · node + axis`.
+/// Nodal forces of the body's loads, in newton (plane strain: per metre of depth), entry
+/// `dimension · node + axis`.
 ///
 /// Facets run in outward order ([`Mesh::orient`](super::Mesh::orient)) and the body has
 /// passed [`check`](super::check()).
 #[must_use]
 pub fn load_vector(body: &Body) -> Vec<f64> {
+    nodal_forces(body, &body.loads)
+}
+
+/// The same of some loads on a body, such as one of its own alone.
+#[must_use]
+pub fn nodal_forces(body: &Body, loads: &[Load]) -> Vec<f64> {
     let mut forces = NodalForces {
         body,
         values: vec![0.0; body.mesh.dimension * body.mesh.nodes.len()],
     };
-    for load in &body.loads {
+    for load in loads {
         match load {
             Load::Pressure { facets, pressure } => forces.add_pressure(facets, *pressure),
             Load::Traction { facets, traction } => forces.add_traction(facets, *traction),

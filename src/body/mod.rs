@@ -44,7 +44,7 @@ mod support;
 pub use check::check;
 pub use facet::FacetGeometry;
 pub use fixing::fixing_dofs;
-pub use load::load_vector;
+pub use load::{load_vector, nodal_forces};
 pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
 pub use rigid_modes::{FreeModes, RigidMode, free_modes};

@@ -97,10 +97,7 @@ impl Case<'_> {
     fn alone(&self, index: usize, load: &Load) -> Vec<f64> {
         let forces = self.bodies.iter().enumerate().map(|(k, body)| {
             if k == index {
-                body::load_vector(&Body {
-                    loads: vec![load.clone()],
-                    ..body.clone()
-                })
+                body::nodal_forces(body, std::slice::from_ref(load))
             } else {
                 Vec::new()
             }
