@@ -58,23 +58,11 @@ impl ContactProblem {
         let contacts = tangents.len();
         check_length("friction", contacts, friction.len())?;
         check_length("initial_gap", contacts, initial_gap.len())?;
-        for (contact, &count) in tangents.iter().enumerate() {
-            if count > 2 {
-                return Err(Error::OutOfRange {
-                    place: format!("tangents[{contact}]"),
-                    value: count as f64,
-                    accepted: "0, 1 or 2",
-                });
-            }
-        }
-        let mut offsets = vec![0];
-        for &count in tangents {
-            offsets.push(offsets[offsets.len() - 1] + 1 + count);
-        }
+        let offsets = Self::block_offsets(tangents)?;
         let unknowns = offsets[contacts];
         check_length("free_displacement", unknowns, free_displacement.len())?;
         check_length("operator", unknowns, operator.size())?;
-        check_friction(&friction)?;
+        Self::check_friction(&friction)?;
         check_finite("initial_gap", &initial_gap)?;
         check_finite("free_displacement", &free_displacement)?;
         Ok(Self {
@@ -129,7 +117,7 @@ impl ContactProblem {
     /// A length that does not fit, a NaN or infinity, a negative coefficient.
     pub fn with_friction(&self, friction: Vec<f64>) -> Result<Self, Error> {
         check_length("friction", self.contacts(), friction.len())?;
-        check_friction(&friction)?;
+        Self::check_friction(&friction)?;
         Ok(Self {
             friction,
             ..self.clone()
@@ -160,6 +148,35 @@ impl ContactProblem {
         check_length("floating.modes", self.unknowns(), floating.modes().nrows())?;
         self.floating = Some(floating);
         Ok(self)
+    }
+
+    /// First unknown of each block of `1 + tangents[i]`, and the number of unknowns at the end.
+    pub(crate) fn block_offsets(tangents: &[usize]) -> Result<Vec<usize>, Error> {
+        let mut offsets = vec![0];
+        for (contact, &count) in tangents.iter().enumerate() {
+            if count > 2 {
+                return Err(Error::OutOfRange {
+                    place: format!("tangents[{contact}]"),
+                    value: count as f64,
+                    accepted: "0, 1 or 2",
+                });
+            }
+            offsets.push(offsets[contact] + 1 + count);
+        }
+        Ok(offsets)
+    }
+
+    /// Finite and not negative.
+    pub(crate) fn check_friction(friction: &[f64]) -> Result<(), Error> {
+        check_finite("friction", friction)?;
+        match friction.iter().position(|&mu| mu < 0.0) {
+            None => Ok(()),
+            Some(contact) => Err(Error::OutOfRange {
+                place: format!("friction[{contact}]"),
+                value: friction[contact],
+                accepted: "friction >= 0",
+            }),
+        }
     }
 
     /// Number of contacts.
@@ -250,17 +267,5 @@ impl ContactProblem {
             get_global_parallelism(),
         );
         displacement
-    }
-}
-
-fn check_friction(friction: &[f64]) -> Result<(), Error> {
-    check_finite("friction", friction)?;
-    match friction.iter().position(|&mu| mu < 0.0) {
-        None => Ok(()),
-        Some(contact) => Err(Error::OutOfRange {
-            place: format!("friction[{contact}]"),
-            value: friction[contact],
-            accepted: "friction >= 0",
-        }),
     }
 }

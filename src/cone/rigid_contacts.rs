@@ -39,25 +39,8 @@ impl RigidContacts {
     /// A length that does not fit, a NaN or infinity, a negative coefficient, more than two tangents.
     pub fn new(tangents: &[usize], friction: Vec<f64>, modes: Mat<f64>) -> Result<Self, Error> {
         check_length("friction", tangents.len(), friction.len())?;
-        check_finite("friction", &friction)?;
-        let mut offsets = vec![0];
-        for (contact, &count) in tangents.iter().enumerate() {
-            if count > 2 {
-                return Err(Error::OutOfRange {
-                    place: format!("tangents[{contact}]"),
-                    value: count as f64,
-                    accepted: "0, 1 or 2",
-                });
-            }
-            if friction[contact] < 0.0 {
-                return Err(Error::OutOfRange {
-                    place: format!("friction[{contact}]"),
-                    value: friction[contact],
-                    accepted: "friction >= 0",
-                });
-            }
-            offsets.push(offsets[contact] + 1 + count);
-        }
+        ContactProblem::check_friction(&friction)?;
+        let offsets = ContactProblem::block_offsets(tangents)?;
         check_length("modes", offsets[tangents.len()], modes.nrows())?;
         for k in 0..modes.ncols() {
             check_finite(&format!("modes column {k}"), modes.col_as_slice(k))?;
