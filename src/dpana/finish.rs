@@ -23,7 +23,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Accum, Col, ColMut, ColRef, Mat, get_global_parallelism};
 use nalgebra::Matrix3;
 
-use super::state::State as Iterate;
+use super::iterate::Iterate;
 use super::stiffness::Stiffness;
 use crate::condensation::ContactProblem;
 

@@ -21,9 +21,9 @@ mod finish;
 mod float;
 mod gauss_seidel;
 mod history;
+mod iterate;
 mod prediction;
 mod settings;
-mod state;
 mod stiffness;
 mod sweep;
 

@@ -5,8 +5,8 @@ use std::time::Instant;
 use super::anderson::Anderson;
 use super::finish::{Finish, Step};
 use super::gauss_seidel::GaussSeidel;
+use super::iterate::Iterate;
 use super::prediction::Roles;
-use super::state::State;
 use super::{Failure, Outcome, Settings, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
 use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
@@ -42,9 +42,9 @@ pub(super) struct Run<'a> {
     pub(super) coulomb: Option<CoulombProgram<'a>>,
     finish: Option<Finish<'a>>,
     /// The iterate.
-    pub(super) state: State,
+    pub(super) state: Iterate,
     /// The state of least residual so far.
-    best: State,
+    best: Iterate,
     /// Normal reaction at the start of the sweep.
     before: Vec<f64>,
     pub(super) record: SweepRecord,
@@ -59,7 +59,7 @@ impl<'a> Run<'a> {
     /// Starts from no reaction.
     pub(super) fn new(problem: &'a ContactProblem, settings: &'a Settings) -> Self {
         let judge = Judge::new(problem);
-        let state = State::new(
+        let state = Iterate::new(
             &judge,
             vec![0.0; problem.unknowns()],
             vec![0.0; problem.free_modes()],
@@ -216,7 +216,7 @@ impl<'a> Run<'a> {
 
     /// The state after a Newton step; where bodies float and the whole step is no gain, after the
     /// part of it that leads to the first slip that ends.
-    fn after(&self, trial: &State, step: &Step) -> State {
+    fn after(&self, trial: &Iterate, step: &Step) -> Iterate {
         let whole = trial.moved(step, 1.0, &self.judge);
         match step.first_stick {
             Some(part) if whole.residual() >= trial.residual() => {

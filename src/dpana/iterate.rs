@@ -5,13 +5,13 @@ use crate::kkt::{Judge, Verdict};
 
 /// Reaction, rigid motion, and the judge's word on them.
 #[derive(Clone, Debug)]
-pub(super) struct State {
+pub(super) struct Iterate {
     pub(super) reaction: Vec<f64>,
     pub(super) motion: Vec<f64>,
     pub(super) verdict: Verdict,
 }
 
-impl State {
+impl Iterate {
     pub(super) fn new(judge: &Judge<'_>, reaction: Vec<f64>, motion: Vec<f64>) -> Self {
         let verdict = judge.measure_floating(&reaction, &motion);
         Self {
