@@ -1,27 +1,14 @@
 //! Load histories and sweeps from the command line: what they leave on disk.
 #![allow(clippy::unwrap_used)]
 
+mod program;
+
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::path::Path;
+
+use program::{dpana, folder};
 
 const SCENE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/fretting.json");
-
-/// A folder of its own per test, below the build folder.
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = fs::remove_dir_all(&folder);
-    fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn dpana(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_dpana"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap()
-}
 
 fn solved(folder: &Path, arguments: &[&str]) -> String {
     let output = dpana(folder, &[&["solve", SCENE], arguments].concat());

@@ -153,20 +153,8 @@ impl Held {
 mod tests {
     #![allow(clippy::unwrap_used)]
 
-    use crate::body::samples::{block, body};
-    use crate::body::{Body, CellKind, Mesh, Model, RigidMode, Support, free_modes, prescribed};
-
-    fn support(nodes: &[usize], axes: &[usize]) -> Support {
-        let mut displacement = [None; 3];
-        for axis in axes {
-            displacement[*axis] = Some(0.0);
-        }
-        Support {
-            place: "support".to_owned(),
-            nodes: nodes.to_vec(),
-            displacement,
-        }
-    }
+    use crate::body::samples::{block, body, support};
+    use crate::body::{Body, CellKind, Mesh, Model, RigidMode, free_modes, prescribed};
 
     fn modes(body: &Body) -> Vec<RigidMode> {
         free_modes(body, &prescribed(body).unwrap()).modes

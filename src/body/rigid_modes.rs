@@ -103,20 +103,8 @@ fn orthonormal(motions: &[Motion], metric: &SMatrix<f64, 6, 6>) -> Vec<Motion> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::body::samples::block;
-    use crate::body::{CellKind, Support, prescribed};
-
-    fn support(nodes: &[usize], axes: &[usize]) -> Support {
-        let mut displacement = [None; 3];
-        for axis in axes {
-            displacement[*axis] = Some(0.0);
-        }
-        Support {
-            place: "support".to_owned(),
-            nodes: nodes.to_vec(),
-            displacement,
-        }
-    }
+    use crate::body::samples::{block, support};
+    use crate::body::{CellKind, prescribed};
 
     fn modes_of(body: &Body) -> FreeModes {
         free_modes(body, &prescribed(body).unwrap())

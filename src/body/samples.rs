@@ -36,6 +36,19 @@ pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
     }
 }
 
+/// A support that holds nodes along some axes.
+pub(crate) fn support(nodes: &[usize], axes: &[usize]) -> Support {
+    let mut displacement = [None; 3];
+    for axis in axes {
+        displacement[*axis] = Some(0.0);
+    }
+    Support {
+        place: "support".to_owned(),
+        nodes: nodes.to_vec(),
+        displacement,
+    }
+}
+
 /// The same block with every inner node moved by a fifth of a cell or less.
 pub(crate) fn distorted(kind: CellKind) -> Body {
     let mut body = block(kind);
