@@ -93,28 +93,7 @@ impl Setup {
         reaction: &'a [f64],
         displacements: &'a [Vec<f64>],
     ) -> Vec<kkt::BodyState<'a>> {
-        let condensed = &self.condensed;
-        let parts = self
-            .bodies
-            .iter()
-            .zip(condensed.bodies())
-            .zip(displacements);
-        parts
-            .enumerate()
-            .map(
-                |(index, ((body, operators), displacement))| kkt::BodyState {
-                    index,
-                    body,
-                    stiffness: operators.stiffness(),
-                    load: operators.load(),
-                    prescribed: operators.prescribed(),
-                    surface: condensed.surface(),
-                    problem: condensed.problem(),
-                    reaction,
-                    displacement,
-                },
-            )
-            .collect()
+        kkt::BodyState::of_bodies(&self.bodies, &self.condensed, reaction, displacements)
     }
 }
 

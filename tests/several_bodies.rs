@@ -91,19 +91,10 @@ impl Solved {
     }
 
     fn balance(&self, index: usize) -> Balance {
-        let operators = &self.condensed.bodies()[index];
-        kkt::balance(&kkt::BodyState {
-            index,
-            body: &self.bodies[index],
-            stiffness: operators.stiffness(),
-            load: operators.load(),
-            prescribed: operators.prescribed(),
-            surface: self.condensed.surface(),
-            problem: self.condensed.problem(),
-            reaction: &self.outcome.reaction,
-            displacement: &self.displacements[index],
-        })
-        .unwrap()
+        let (bodies, condensed) = (&self.bodies, &self.condensed);
+        let (reaction, displacements) = (&self.outcome.reaction, &self.displacements);
+        let states = kkt::BodyState::of_bodies(bodies, condensed, reaction, displacements);
+        kkt::balance(&states[index]).unwrap()
     }
 
     fn departure(&self) -> Worst {

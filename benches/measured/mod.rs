@@ -70,19 +70,8 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
     let outcome = dpana::dpana::solve(problem, &mechanics.settings)?;
     let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
     let mut balanced = true;
-    for (index, (body, operators)) in bodies.iter().zip(condensed.bodies()).enumerate() {
-        let balance = kkt::balance(&BodyState {
-            index,
-            body,
-            stiffness: operators.stiffness(),
-            load: operators.load(),
-            prescribed: operators.prescribed(),
-            surface: condensed.surface(),
-            problem,
-            reaction: &outcome.reaction,
-            displacement: &displacements[index],
-        })?;
-        balanced &= balance.equilibrium.scaled <= 1e-8;
+    for state in BodyState::of_bodies(bodies, &condensed, &outcome.reaction, &displacements) {
+        balanced &= kkt::balance(&state)?.equilibrium.scaled <= 1e-8;
     }
     let work = condensed.work();
     let rest = work.condensation_seconds + start.elapsed().as_secs_f64();

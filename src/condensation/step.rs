@@ -89,11 +89,9 @@ impl Condensed {
     /// (C14).
     fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
         let mut reference = slip.to_vec();
-        for (contact, &first) in self.surface.nodes.iter().zip(self.problem.offsets()) {
-            let moved = match contact.opposite {
-                None => obstacles[contact.pair],
-                Some(_) => [0.0; 3],
-            };
+        let moved = self.surface.obstacle_motions(obstacles);
+        let contacts = self.surface.nodes.iter().zip(moved);
+        for ((contact, moved), &first) in contacts.zip(self.problem.offsets()) {
             reference[first] = 0.0;
             for (row, entry) in contact.frame[..=contact.tangents]
                 .iter()

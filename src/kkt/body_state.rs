@@ -4,7 +4,7 @@ use sprs::CsMat;
 
 use super::sides::{block, check_nodes, check_surface, global_force, shares};
 use crate::body::Body;
-use crate::condensation::{ContactProblem, ContactSurface};
+use crate::condensation::{Condensed, ContactProblem, ContactSurface};
 use crate::error::{Error, check_length};
 
 /// A body with everything that acts on it; unknown `node · dimension + axis`.
@@ -28,6 +28,34 @@ pub struct BodyState<'a> {
     pub reaction: &'a [f64],
     /// Recovered displacement per unknown of the body, in metre.
     pub displacement: &'a [f64],
+}
+
+impl<'a> BodyState<'a> {
+    /// The states of condensed bodies under one reaction, in newton per contact unknown, with
+    /// their recovered displacements, in metre per body and unknown.
+    #[must_use]
+    pub fn of_bodies(
+        bodies: &'a [Body],
+        condensed: &'a Condensed,
+        reaction: &'a [f64],
+        displacements: &'a [Vec<f64>],
+    ) -> Vec<Self> {
+        let parts = bodies.iter().zip(condensed.bodies()).zip(displacements);
+        parts
+            .enumerate()
+            .map(|(index, ((body, operators), displacement))| Self {
+                index,
+                body,
+                stiffness: operators.stiffness(),
+                load: operators.load(),
+                prescribed: operators.prescribed(),
+                surface: condensed.surface(),
+                problem: condensed.problem(),
+                reaction,
+                displacement,
+            })
+            .collect()
+    }
 }
 
 impl BodyState<'_> {

@@ -159,13 +159,34 @@ impl Ledger {
     /// Both steps together.
     #[must_use]
     pub fn plus(&self, other: &Self) -> Self {
+        let (own, other) = (self.entries(), other.entries());
+        Self::from(std::array::from_fn(|k| own[k] + other[k]))
+    }
+
+    /// The entries in the order of (K9).
+    #[must_use]
+    pub fn entries(&self) -> [f64; 6] {
+        [
+            self.loads,
+            self.supports,
+            self.obstacles,
+            self.elastic,
+            self.dissipation,
+            self.closure,
+        ]
+    }
+}
+
+impl From<[f64; 6]> for Ledger {
+    fn from(entries: [f64; 6]) -> Self {
+        let [loads, supports, obstacles, elastic, dissipation, closure] = entries;
         Self {
-            loads: self.loads + other.loads,
-            supports: self.supports + other.supports,
-            obstacles: self.obstacles + other.obstacles,
-            elastic: self.elastic + other.elastic,
-            dissipation: self.dissipation + other.dissipation,
-            closure: self.closure + other.closure,
+            loads,
+            supports,
+            obstacles,
+            elastic,
+            dissipation,
+            closure,
         }
     }
 }

@@ -137,12 +137,11 @@ impl Past {
             let place = format!("state.displacements[{index}]");
             check_length(&place, unknowns, displacement.len())?;
         }
-        let [loads, supports, obstacles, elastic, dissipation, closure] =
-            <[f64; 6]>::try_from(plain(&saved.ledger)).map_err(|found| Error::Length {
-                place: "state.ledger".to_owned(),
-                expected: 6,
-                found: found.len(),
-            })?;
+        let total = <[f64; 6]>::try_from(plain(&saved.ledger)).map_err(|found| Error::Length {
+            place: "state.ledger".to_owned(),
+            expected: 6,
+            found: found.len(),
+        })?;
         let (reaction, slip) = (plain(&saved.reaction), plain(&saved.slip));
         let displacements: Vec<_> = saved.displacements.iter().map(|u| plain(u)).collect();
         let moved = history.obstacles(saved.at.0);
@@ -154,14 +153,7 @@ impl Past {
             relative: relative(setup, &displacements, &moved),
             obstacles: moved,
             account: Some(Account::new(&setup.body_states(&reaction, &displacements))?),
-            total: Ledger {
-                loads,
-                supports,
-                obstacles,
-                elastic,
-                dissipation,
-                closure,
-            },
+            total: Ledger::from(total),
             reaction,
             slip,
         })
@@ -238,14 +230,6 @@ impl Solution {
     #[must_use]
     pub fn saved_state(&self) -> Option<SavedState> {
         let step = self.step.as_ref()?;
-        let Ledger {
-            loads,
-            supports,
-            obstacles,
-            elastic,
-            dissipation,
-            closure,
-        } = step.total;
         Some(SavedState {
             steps: step.number,
             at: Exact(step.at),
@@ -253,7 +237,7 @@ impl Solution {
             motion: exact(&self.outcome.motion),
             slip: exact(&step.slip),
             displacements: self.displacements.iter().map(|u| exact(u)).collect(),
-            ledger: exact(&[loads, supports, obstacles, elastic, dissipation, closure]),
+            ledger: exact(&step.total.entries()),
         })
     }
 }
@@ -298,23 +282,12 @@ impl SolvedStep {
     }
 }
 
-/// Motion of each contact's obstacle in global axes; zero between bodies.
-fn of_contacts(condensed: &Condensed, obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let contacts = condensed.surface().nodes.iter();
-    contacts
-        .map(|contact| match contact.opposite {
-            None => obstacles[contact.pair],
-            Some(_) => [0.0; 3],
-        })
-        .collect()
-}
-
 /// Displacement of each contact relative to its other side where that is now, in metre.
 fn relative(setup: &Setup, displacements: &[Vec<f64>], obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
     let dimension = setup.bodies.first().map_or(3, |body| body.mesh.dimension);
     let contacts = setup.condensed.surface().nodes.iter();
     contacts
-        .zip(of_contacts(&setup.condensed, obstacles))
+        .zip(setup.condensed.surface().obstacle_motions(obstacles))
         .map(|(contact, d)| {
             let u = relative_displacement(contact, displacements, dimension);
             [0, 1, 2].map(|axis| u[axis] - d[axis])
@@ -324,7 +297,8 @@ fn relative(setup: &Setup, displacements: &[Vec<f64>], obstacles: &[[f64; 3]]) -
 
 /// Where the slip of a step counts from, per contact in global axes, in metre.
 fn origins(condensed: &Condensed, relative: &[[f64; 3]], obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let contacts = relative.iter().zip(of_contacts(condensed, obstacles));
+    let moved = condensed.surface().obstacle_motions(obstacles);
+    let contacts = relative.iter().zip(moved);
     contacts
         .map(|(u, d)| [0, 1, 2].map(|axis| u[axis] + d[axis]))
         .collect()
@@ -332,10 +306,10 @@ fn origins(condensed: &Condensed, relative: &[[f64; 3]], obstacles: &[[f64; 3]])
 
 /// Motion of the other side from one state to the next, in metre per contact unknown.
 fn moved(condensed: &Condensed, before: &[[f64; 3]], after: &[[f64; 3]]) -> Vec<f64> {
-    let contacts = condensed.surface().nodes.iter();
-    let motions = of_contacts(condensed, before)
-        .into_iter()
-        .zip(of_contacts(condensed, after));
+    let surface = condensed.surface();
+    let motions = surface.obstacle_motions(before).into_iter();
+    let motions = motions.zip(surface.obstacle_motions(after));
+    let contacts = surface.nodes.iter();
     contacts
         .zip(motions)
         .flat_map(|(contact, (before, after))| {
