@@ -1,0 +1,16 @@
+//! The commands, one per file: its arguments, then what is done with them.
+
+mod check;
+mod limit;
+mod outputs;
+mod schema;
+mod solve;
+mod sweep;
+mod verify;
+
+pub(crate) use check::{Check, check};
+pub(crate) use limit::{Limit, limit};
+pub(crate) use schema::schema;
+pub(crate) use solve::{Solve, solve};
+pub(crate) use sweep::{Sweep, sweep};
+pub(crate) use verify::{Verify, verify};

@@ -1,0 +1,83 @@
+//! `dpana sweep`: one scene under many values.
+
+use std::error::Error;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Args;
+use dpana::Variation;
+use dpana::scene::Scene;
+
+use super::outputs::{check_output, write_table};
+
+#[derive(Args)]
+pub(crate) struct Sweep {
+    /// Scene in JSON, without load steps.
+    scene: PathBuf,
+    /// Quantity and its values: `friction=0.1:0.9:17` (from, to, how many) or `gap=0,1e-3`.
+    /// Given again, all combinations are solved. Quantities: friction, gap,
+    /// contacts[0].friction, contacts[0].gap, contacts[0].x (motion of the obstacle),
+    /// bodies[0].loads[0] and bodies[0].supports[0] (factors).
+    #[arg(long, value_name = "NAME=VALUES", required = true)]
+    vary: Vec<String>,
+    /// Write the table to this file: JSON if it ends so, else CSV.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+pub(crate) fn sweep(arguments: &Sweep) -> Result<ExitCode, Box<dyn Error>> {
+    check_output("--out", &arguments.out, &arguments.scene)?;
+    let variations = arguments.vary.iter().map(|text| variation(text));
+    let variations: Vec<Variation> = variations.collect::<Result<_, _>>()?;
+    let table = dpana::sweep(&Scene::from_file(&arguments.scene)?, &variations)?;
+    write_table(&arguments.out, &table)?;
+    let certified = dpana::report::Cell::Word("certified");
+    let sound = table
+        .rows
+        .iter()
+        .filter(|row| row.contains(&certified))
+        .count();
+    writeln!(
+        io::stdout(),
+        "{} cases, {sound} certified",
+        table.rows.len()
+    )?;
+    Ok(match sound == table.rows.len() {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(1),
+    })
+}
+
+/// Reads `name=from:to:count` or `name=value,value,...`.
+fn variation(text: &str) -> Result<Variation, String> {
+    let refuse = || {
+        format!(
+            "--vary {text}: not understood; expected NAME=FROM:TO:COUNT with a COUNT of 2 to \
+             1000000, or NAME=VALUE,VALUE"
+        )
+    };
+    let (name, values) = text.split_once('=').ok_or_else(refuse)?;
+    let number = |text: &str| text.trim().parse::<f64>().map_err(|_| refuse());
+    let parts: Vec<&str> = values.split(':').collect();
+    let values = match parts[..] {
+        [from, to, count] => {
+            let (from, to) = (number(from)?, number(to)?);
+            let count: usize = count.trim().parse().map_err(|_| refuse())?;
+            if !(2..=1_000_000).contains(&count) {
+                return Err(refuse());
+            }
+            let last = (count - 1) as f64;
+            let part = |k: usize| k as f64 / last;
+            (0..count)
+                .map(|k| from * (1.0 - part(k)) + to * part(k))
+                .collect()
+        }
+        [list] => list.split(',').map(number).collect::<Result<_, _>>()?,
+        _ => return Err(refuse()),
+    };
+    Ok(Variation {
+        name: name.trim().to_owned(),
+        values,
+    })
+}
