@@ -149,7 +149,7 @@ fn the_three_loops_agree() {
         .iter()
         .fold(0.0_f64, |largest, t| largest.max(t.abs()));
     for other in [
-        run(Variant::Plain, 1e-5, 200),
+        run(Variant::PLAIN, 1e-5, 200),
         run(Variant::Nsgs, 1e-8, 20_000),
     ] {
         for (a, b) in default.iter().zip(&other) {

@@ -143,7 +143,7 @@ fn plain_sweeps_from_a_disturbed_solution_contract_at_that_rate() {
 fn plain_sweeps_from_a_cold_start_come_close_to_that_rate() {
     for (poisson, expected) in RATES {
         let condensed = square(poisson, 1.0);
-        let outcome = run(condensed.problem(), Variant::Plain, 30);
+        let outcome = run(condensed.problem(), Variant::PLAIN, 30);
         let residuals = outcome.history.iter().map(|sweep| sweep.residual);
         let clean: Vec<f64> = residuals.filter(|r| (1e-7..1e-3).contains(r)).collect();
         // An even number of sweeps: the leading pair turns by a right angle in each.
@@ -159,7 +159,7 @@ fn plain_sweeps_from_a_cold_start_come_close_to_that_rate() {
 #[test]
 fn plain_sweeps_diverge_at_high_friction_where_the_default_is_certified() {
     let condensed = square(0.2, 5.0);
-    let plain = run(condensed.problem(), Variant::Plain, 60);
+    let plain = run(condensed.problem(), Variant::PLAIN, 60);
     assert_eq!(plain.status, Status::NotConverged);
     assert!(plain.history.iter().all(|sweep| sweep.residual > 1e-2));
     // The leading eigenvalue says why; and the default does not care.

@@ -8,6 +8,8 @@
 
 use std::time::Instant;
 
+use faer::Mat;
+
 use super::Failure;
 use super::sweep::Run;
 use crate::condensation::Floating;
@@ -41,18 +43,22 @@ impl Run<'_> {
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
 
-    /// (H8).
-    pub(super) fn coulomb_program(&mut self, floating: &Floating) {
+    /// (H8), with the equilibrium of the bodies that float, if any do.
+    pub(super) fn coulomb_program(&mut self, floating: Option<&Floating>) {
         let start = Instant::now();
+        let none = Mat::zeros(self.problem.unknowns(), 0);
+        let (modes, load) = match floating {
+            Some(floating) => (floating.modes(), floating.load()),
+            None => (none.as_ref(), &[][..]),
+        };
         let tolerance = TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
         let tolerance = tolerance.max(TOLERANCE.1);
         let mut program = self
             .coulomb
             .take()
-            .or_else(|| CoulombProgram::new(self.problem, floating.modes()));
-        let solve = |program: &mut CoulombProgram<'_>| {
-            program.solve(floating.load(), &self.shift, tolerance)
-        };
+            .or_else(|| CoulombProgram::new(self.problem, modes));
+        let shift = &self.shift;
+        let solve = |program: &mut CoulombProgram<'_>| program.solve(load, shift, tolerance);
         match program.as_mut().and_then(solve) {
             Some(solution) => {
                 self.record.coulomb_iterations = solution.iterations;

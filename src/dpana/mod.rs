@@ -28,7 +28,7 @@ mod stiffness;
 mod sweep;
 
 pub use history::{Failure, Outcome, Seconds, Status, SweepRecord, Work};
-pub use settings::{Settings, Variant};
+pub use settings::{Mixing, Settings, Sweeps, Variant};
 
 use crate::condensation::ContactProblem;
 use crate::error::{Error, check_finite, check_length};
@@ -86,7 +86,7 @@ fn run(mut run: Run<'_>) -> Outcome {
         (Variant::Default, Some(floating)) => {
             while run.goes_on() {
                 run.begin_sweep();
-                run.coulomb_program(floating);
+                run.coulomb_program(Some(floating));
                 run.judge();
                 run.shift_by_slip();
                 run.newton_finish();
@@ -110,12 +110,25 @@ fn run(mut run: Run<'_>) -> Outcome {
                 run.end_sweep();
             }
         }
-        (Variant::Plain, _) => {
+        (Variant::Sweeps(sweeps), _) => {
             while run.goes_on() {
                 run.begin_sweep();
                 run.normal_half_step();
+                run.mix(sweeps.mixing);
                 run.friction_half_step();
                 run.judge();
+                if sweeps.finish {
+                    run.newton_finish();
+                }
+                run.end_sweep();
+            }
+        }
+        (Variant::FullCone, _) => {
+            while run.goes_on() {
+                run.begin_sweep();
+                run.coulomb_program(None);
+                run.judge();
+                run.shift_by_slip();
                 run.end_sweep();
             }
         }

@@ -3,15 +3,48 @@
 use crate::error::Error;
 
 /// Which outer loop runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Variant {
     /// Prediction, accelerated sweeps on working sets, Newton finish.
     #[default]
     Default,
-    /// Unaccelerated sweeps with full programs at tight tolerance, for study.
-    Plain,
+    /// Sweeps of full programs without prediction, for study.
+    Sweeps(Sweeps),
+    /// Fixed point of one program over all Coulomb cones (H8), for study.
+    FullCone,
     /// Projected block Gauss–Seidel on all contacts, the baseline, for study.
     Nsgs,
+}
+
+impl Variant {
+    /// Unaccelerated sweeps at tight tolerance: the alternation itself.
+    pub const PLAIN: Self = Self::Sweeps(Sweeps {
+        mixing: Mixing::None,
+        exact: true,
+        finish: false,
+    });
+}
+
+/// How sweeps are run for study.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sweeps {
+    /// What follows the normal half-step.
+    pub mixing: Mixing,
+    /// Half-steps as exact as the cone solver can be; else tied to the outer residual.
+    pub exact: bool,
+    /// A Newton finish after every sweep.
+    pub finish: bool,
+}
+
+/// How the normal reaction is taken on from sweep to sweep.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mixing {
+    /// As the half-step left it.
+    None,
+    /// This part of the way to it, in (0, 1].
+    Relaxed(f64),
+    /// By Anderson acceleration.
+    Anderson,
 }
 
 /// Settings of the outer loop.
@@ -54,6 +87,18 @@ impl Settings {
                 place: "settings.max_sweeps".into(),
                 value: 0.0,
                 accepted: "max_sweeps >= 1",
+            });
+        }
+        if let Variant::Sweeps(Sweeps {
+            mixing: Mixing::Relaxed(part),
+            ..
+        }) = self.variant
+            && !(part > 0.0 && part <= 1.0)
+        {
+            return Err(Error::OutOfRange {
+                place: "settings.variant: relaxed".into(),
+                value: part,
+                accepted: "0 < part <= 1",
             });
         }
         Ok(())

@@ -7,7 +7,7 @@ use super::finish::{Finish, Step};
 use super::gauss_seidel::GaussSeidel;
 use super::iterate::Iterate;
 use super::prediction::Roles;
-use super::{Failure, Outcome, Settings, Status, SweepRecord, Variant, Work};
+use super::{Failure, Mixing, Outcome, Settings, Status, SweepRecord, Sweeps, Variant, Work};
 use crate::condensation::ContactProblem;
 use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
@@ -151,6 +151,20 @@ impl<'a> Run<'a> {
         self.work.seconds.normal += start.elapsed().as_secs_f64();
     }
 
+    /// Takes the normal reaction on as a sweep for study asks.
+    pub(super) fn mix(&mut self, mixing: Mixing) {
+        match mixing {
+            Mixing::None => {}
+            Mixing::Relaxed(part) => {
+                for (contact, before) in self.before.iter().enumerate() {
+                    let t = &mut self.state.reaction[self.problem.offsets()[contact]];
+                    *t = before + part * (*t - before);
+                }
+            }
+            Mixing::Anderson => self.accelerate(),
+        }
+    }
+
     /// (D3) on the normal reaction, clipped to t_N ≤ 0.
     pub(super) fn accelerate(&mut self) {
         let image = self.normal_reaction();
@@ -226,13 +240,15 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// One pass of the baseline; the judge is asked when the pass changes little.
+    /// One pass of the baseline; the judge is asked when the pass changes little, and after
+    /// 1, 2, 4, 8 … passes.
     pub(super) fn gauss_seidel_pass(&mut self) {
         let start = Instant::now();
         self.work.passes += 1;
         let change = self.gauss_seidel.pass(&mut self.state.reaction);
         self.work.seconds.predict += start.elapsed().as_secs_f64();
-        if change <= self.settings.tolerance || self.work.sweeps == self.settings.max_sweeps {
+        let asked = self.work.sweeps == self.settings.max_sweeps;
+        if asked || self.work.sweeps.is_power_of_two() || change <= self.settings.tolerance {
             self.judge();
         }
     }
@@ -271,12 +287,12 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tied to the outer residual; study sweeps are as exact as Clarabel can be.
+    /// Tied to the outer residual; exact study sweeps are as exact as Clarabel can be.
     pub(super) fn cone_tolerance(&self) -> f64 {
         let (tightest, loosest) = CONE_TOLERANCE;
         match self.settings.variant {
-            Variant::Default => (INEXACT * self.state.residual()).clamp(tightest, loosest),
-            _ => tightest,
+            Variant::Sweeps(Sweeps { exact: true, .. }) => tightest,
+            _ => (INEXACT * self.state.residual()).clamp(tightest, loosest),
         }
     }
 
