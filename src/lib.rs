@@ -24,6 +24,7 @@
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
 //! | closed forms | [`closed_forms`] | answers that need no mesh |
+//! | study | [`mod@study`] | a scene over meshes, tolerances, friction and loops |
 //! | verification | [`mod@verify`] | scenes whose answers are known, on ladders of meshes |
 //!
 //! A problem that another code condensed goes straight to [`dpana::solve`](dpana::solve()).
@@ -39,6 +40,7 @@ pub mod kkt;
 pub mod pipeline;
 pub mod report;
 pub mod scene;
+pub mod study;
 pub mod verify;
 
 pub use condensation::ContactProblem;
@@ -47,6 +49,7 @@ pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep};
 pub use scene::Scene;
+pub use study::study;
 pub use verify::verify;
 
 /// The programs of the README, run as tests.

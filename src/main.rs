@@ -1,4 +1,4 @@
-//! The command line: solve, sweep, limit, check, schema, verify.
+//! The command line: solve, sweep, limit, study, check, schema, verify.
 
 mod commands;
 
@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{Check, Limit, Solve, Sweep, Verify};
+use commands::{Check, Limit, Solve, Study, Sweep, Verify};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -30,6 +30,9 @@ enum Command {
     /// Say by what factor each load can grow before nothing holds the bodies that only
     /// contact holds, and how much friction they take.
     Limit(Limit),
+    /// Run a scene over meshes, tolerances, friction and loops, and put tables and figures of
+    /// time and error on a page.
+    Study(Study),
     /// Read a scene and its meshes and say what is wrong, without solving.
     Check(Check),
     /// Print the JSON Schema of scenes.
@@ -43,6 +46,7 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => commands::solve(&arguments),
         Command::Sweep(arguments) => commands::sweep(&arguments),
         Command::Limit(arguments) => commands::limit(&arguments),
+        Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
         Command::Schema => commands::schema(),
         Command::Verify(arguments) => commands::verify(&arguments),

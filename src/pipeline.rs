@@ -213,6 +213,24 @@ impl Solution {
         })
     }
 
+    /// Estimated error of the stress of all bodies relative to the stress, both in the energy
+    /// norm (B9); 0 where there is no stress.
+    #[must_use]
+    pub fn stress_error_estimate(&self) -> f64 {
+        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        let (mut error, mut energy) = (0.0, 0.0);
+        for (body, displacement) in solved {
+            let found = body::stress_recovery(body, displacement);
+            error += found.error;
+            energy += found.energy;
+        }
+        if energy > 0.0 {
+            (error / energy).sqrt()
+        } else {
+            0.0
+        }
+    }
+
     /// The load step that led here; none where the scene has no steps.
     #[must_use]
     pub fn step(&self) -> Option<&SolvedStep> {

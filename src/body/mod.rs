@@ -8,6 +8,7 @@
 //! (B6)  f_a = ∫ N_a b dV + ∫ N_a p dA + P_a                                    load.rs
 //! (B7)  u(x) = a + ω × (x − c)                   what supports have to hold    rigid.rs
 //! (B8)  mean of u_j · u_k = δ_jk                  what they leave free          rigid_modes.rs
+//! (B9)  η² = ∫ (σ* − σ) : C⁻¹ : (σ* − σ) dV        how wrong the stress is       recovery.rs
 //! ```
 //!
 //! In order: [`check`](check()), [`prescribed`], [`free_modes`], then [`stiffness`](stiffness())
@@ -31,6 +32,7 @@ mod locking;
 mod material;
 pub mod mesh;
 mod quadrature;
+mod recovery;
 mod rigid;
 mod rigid_modes;
 #[cfg(test)]
@@ -47,6 +49,7 @@ pub use fixing::fixing_dofs;
 pub use load::{load_vector, nodal_forces};
 pub use material::Lame;
 pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
+pub use recovery::{StressRecovery, stress_recovery};
 pub use rigid_modes::{FreeModes, RigidMode, free_modes};
 pub use stiffness::stiffness;
 pub use stress::{cell_stress, nodal_stress, von_mises};

@@ -5,6 +5,7 @@ mod limit;
 mod outputs;
 mod schema;
 mod solve;
+mod study;
 mod sweep;
 mod verify;
 
@@ -12,5 +13,6 @@ pub(crate) use check::{Check, check};
 pub(crate) use limit::{Limit, limit};
 pub(crate) use schema::schema;
 pub(crate) use solve::{Solve, solve};
+pub(crate) use study::{Study, study};
 pub(crate) use sweep::{Sweep, sweep};
 pub(crate) use verify::{Verify, verify};

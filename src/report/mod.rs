@@ -8,12 +8,17 @@
 mod certificate;
 mod contacts;
 mod failure;
+mod figure;
 mod file;
 mod limit;
 mod motion;
 mod notes;
+mod page;
 mod plot;
+mod quality;
 mod step;
+mod study;
+mod study_figures;
 mod summary;
 mod table;
 mod totals;
@@ -26,12 +31,15 @@ use serde::Serialize;
 pub use certificate::{Balance, Certificate, Defect, Resultant, Worst, WorstNode};
 pub use contacts::{Contact, ContactState};
 pub use failure::Failure;
+pub use figure::{Axis, Curve, Figure, Point};
 pub use file::replace_file;
 pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
 pub use motion::Motion;
 pub(crate) use motion::motions;
 pub use plot::plot;
+pub use quality::Quality;
 pub use step::{Ledger, Step};
+pub use study::{Exponent, KnownTotal, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
 pub use totals::{Exchange, PairTotals, Totals};
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
@@ -64,6 +72,8 @@ pub struct Report {
     pub certificate: Certificate,
     /// Totals over the contact surface, and pair by pair.
     pub totals: Totals,
+    /// How far pressure and stress can be trusted by eye.
+    pub quality: Quality,
     /// What it took.
     pub work: Work,
     /// Sweep by sweep.
@@ -84,6 +94,18 @@ pub enum Status {
     NotConverged,
     /// No admissible contact forces hold the bodies.
     NoEquilibrium,
+}
+
+impl Status {
+    /// As JSON and tables spell it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Certified => "certified",
+            Self::NotConverged => "not_converged",
+            Self::NoEquilibrium => "no_equilibrium",
+        }
+    }
 }
 
 /// Size of the problem.
@@ -167,6 +189,7 @@ impl Report {
             &parts.outcome.reaction,
         )?;
         let forces = contacts::contact_forces(parts);
+        let contacts = contacts::contacts(parts, &forces);
         Ok(Self {
             title: parts.title.to_owned(),
             units: parts.units.to_owned(),
@@ -176,10 +199,11 @@ impl Report {
             size: Size::new(parts),
             certificate: Certificate::new(parts),
             totals: Totals::new(parts, &exchanges, &forces),
+            quality: Quality::new(parts, &contacts),
             work: Work::new(parts),
             history: parts.outcome.history.iter().map(Sweep::from).collect(),
             notes: notes::notes(parts),
-            contacts: contacts::contacts(parts, &forces),
+            contacts,
         })
     }
 

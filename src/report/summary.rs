@@ -17,6 +17,7 @@ pub(super) fn summary(report: &Report) -> String {
             Some(failure) => missing(&mut text, failure),
             None => totals(&mut text, report)
                 .and_then(|()| energy(&mut text, report))
+                .and_then(|()| quality(&mut text, report))
                 .and_then(|()| pairs(&mut text, report))
                 .and_then(|()| violations(&mut text, report)),
         })
@@ -95,6 +96,25 @@ fn totals(text: &mut String, report: &Report) -> std::fmt::Result {
     let (area, slipping) = (number(totals.contact_area), number(totals.slip_area));
     writeln!(text, "contact area    {area}, slipping {slipping}")?;
     writeln!(text, "peak pressure   {}", number(totals.peak_pressure))
+}
+
+/// What the mesh leaves to be desired, as far as it was looked at.
+fn quality(text: &mut String, report: &Report) -> std::fmt::Result {
+    let mut parts = Vec::new();
+    if let Some(oscillation) = report.quality.oscillation {
+        parts.push(format!("pressure oscillates by {}", percent(oscillation)));
+    }
+    if let Some(estimate) = report.quality.stress_error_estimate {
+        parts.push(format!("stress is wrong by about {}", percent(estimate)));
+    }
+    match parts.is_empty() {
+        true => Ok(()),
+        false => writeln!(text, "mesh            {}", parts.join(", ")),
+    }
+}
+
+fn percent(part: f64) -> String {
+    format!("{} %", number(100.0 * part))
 }
 
 /// Where the work of a load history went so far.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Report, Status};
+use super::Report;
 
 /// An entry of a table.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -30,7 +30,12 @@ impl Table {
     pub fn push(&mut self, given: &[(String, f64)], report: &Report) {
         let given = given.iter().cloned();
         let given = given.map(|(name, value)| (name, Cell::Number(value)));
-        let (columns, row) = given.chain(totals(report)).unzip();
+        self.add(given.chain(totals(report)));
+    }
+
+    /// Appends a row of named entries; all of one table have the same names.
+    pub(super) fn add(&mut self, row: impl IntoIterator<Item = (String, Cell)>) {
+        let (columns, row) = row.into_iter().unzip();
         self.columns = columns;
         self.rows.push(row);
     }
@@ -88,7 +93,7 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
         axes.map(move |(axis, value)| (format!("{name}_{axis}"), Cell::Number(value)))
             .collect::<Vec<_>>()
     };
-    let mut row = vec![("status".to_owned(), Cell::Word(word(report.status)))];
+    let mut row = vec![("status".to_owned(), Cell::Word(report.status.word()))];
     row.extend([
         number("natural_map", report.certificate.natural_map),
         count("open", totals.open),
@@ -142,12 +147,4 @@ fn extreme(
 
 fn length(vector: &[f64]) -> f64 {
     vector.iter().fold(0.0, |size: f64, u| size.hypot(*u))
-}
-
-fn word(status: Status) -> &'static str {
-    match status {
-        Status::Certified => "certified",
-        Status::NotConverged => "not_converged",
-        Status::NoEquilibrium => "no_equilibrium",
-    }
 }

@@ -1,0 +1,261 @@
+//! How wrong the stress is: cell by cell against a smoother one that is recovered from it.
+//!
+//! ```text
+//! (B9)  η² = ∫ (σ* − σ) : C⁻¹ : (σ* − σ) dV,     σ* = Σ N_a σ*_a,     ‖σ‖² = ∫ σ : C⁻¹ : σ dV
+//!       σ*_a   mean of the stress at the centres of the cells of one material around node a,
+//!              weighted by their volume
+//! ```
+//!
+//! Where the solution is smooth σ* is closer to it than σ by an order of the cell size, so that η
+//! is the energy norm of the error (Zienkiewicz, Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337–357).
+//! Next to supports, corners and the ends of the contact it is a measure, not a bound.
+
+use std::collections::HashMap;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::dilatation::Dilatation;
+use super::quadrature::{Mapped, mapped, rule};
+use super::{Body, Cell, Lame, Material, Model, cell_stress};
+
+/// What (B9) finds in a body; both squared energy norms, in joule.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StressRecovery {
+    /// η², an estimate of the error.
+    pub error: f64,
+    /// ‖σ‖², twice the elastic energy.
+    pub energy: f64,
+}
+
+/// Estimates the error of the stress of a displacement (B9).
+///
+/// `displacement` in metre, entry `dimension · node + axis`.
+#[must_use]
+pub fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
+    let centres = cell_stress(body, displacement);
+    let recovered = recovered(body, &centres);
+    let mut sum = StressRecovery::default();
+    let cells = body.mesh.cells().zip(&body.material_of_cell).zip(&centres);
+    for (index, ((cell, &material), centre)) in cells.enumerate() {
+        let nodes = cell.nodes.iter();
+        let smooth: Vec<[f64; 6]> = nodes
+            .map(|node| {
+                recovered
+                    .get(&(material, *node))
+                    .copied()
+                    .unwrap_or(*centre)
+            })
+            .collect();
+        let compliance = Compliance(&body.materials[material]);
+        let of_cell = if cell.kind.is_tensor_product() {
+            in_tensor_product(body, displacement, cell, material, &smooth)
+        } else {
+            in_simplex(&compliance, body.mesh.volume(index), centre, &smooth)
+        };
+        sum.error += body.model.depth() * of_cell.error;
+        sum.energy += body.model.depth() * of_cell.energy;
+    }
+    sum
+}
+
+/// `σ*_a` per material and node.
+fn recovered(body: &Body, centres: &[[f64; 6]]) -> HashMap<(usize, usize), [f64; 6]> {
+    let mut sums: HashMap<(usize, usize), ([f64; 6], f64)> = HashMap::new();
+    for (index, stress) in centres.iter().enumerate() {
+        let (volume, material) = (body.mesh.volume(index), body.material_of_cell[index]);
+        for node in body.mesh.cell(index).nodes {
+            let (sum, weight) = sums.entry((material, *node)).or_default();
+            for (total, component) in sum.iter_mut().zip(stress) {
+                *total += volume * component;
+            }
+            *weight += volume;
+        }
+    }
+    let means = sums.into_iter();
+    means
+        .map(|(at, (sum, weight))| (at, sum.map(|total| total / weight)))
+        .collect()
+}
+
+/// σ is constant and `σ* − σ = Σ N_a d_a`, with `∫ N_a N_b dV = V (1 + δ_ab)/(n (n + 1))` for n nodes.
+fn in_simplex(
+    compliance: &Compliance<'_>,
+    volume: f64,
+    stress: &[f64; 6],
+    smooth: &[[f64; 6]],
+) -> StressRecovery {
+    let differences: Vec<[f64; 6]> = smooth.iter().map(|s| minus(s, stress)).collect();
+    let mut sum = [0.0; 6];
+    let mut own = 0.0;
+    for difference in &differences {
+        own += compliance.square(difference);
+        for (total, d) in sum.iter_mut().zip(difference) {
+            *total += d;
+        }
+    }
+    let nodes = smooth.len() as f64;
+    StressRecovery {
+        error: volume * (compliance.square(&sum) + own) / (nodes * (nodes + 1.0)),
+        energy: volume * compliance.square(stress),
+    }
+}
+
+/// By the cell's quadrature points, at which its stress differs.
+fn in_tensor_product(
+    body: &Body,
+    displacement: &[f64],
+    cell: Cell<'_>,
+    material: usize,
+    smooth: &[[f64; 6]],
+) -> StressRecovery {
+    let (material, points) = (&body.materials[material], rule(cell.kind));
+    let (compliance, lame) = (Compliance(material), material.lame(body.model));
+    let all = mapped(&body.mesh, cell);
+    let gradients = all[..points.len()].iter().map(|point| {
+        let gradient = gradient(body, displacement, cell, point);
+        (point.volume, gradient)
+    });
+    let gradients: Vec<(f64, Matrix3<f64>)> = gradients.collect();
+    let volume: f64 = gradients.iter().map(|(volume, _)| volume).sum();
+    let weighted = gradients.iter().map(|(volume, h)| volume * h.trace());
+    let mean = weighted.sum::<f64>() / volume;
+    let pointwise = Dilatation::of(cell.kind, body.model, material) == Dilatation::Pointwise;
+    let mut sum = StressRecovery::default();
+    for (point, (volume, gradient)) in points.iter().zip(&gradients) {
+        let theta = if pointwise { gradient.trace() } else { mean };
+        let stress = stress(lame, body.model, gradient, theta);
+        let mut at_point = [0.0; 6];
+        for (shape, of_node) in point.shape.iter().zip(smooth) {
+            for (total, component) in at_point.iter_mut().zip(of_node) {
+                *total += shape * component;
+            }
+        }
+        sum.error += volume * compliance.square(&minus(&at_point, &stress));
+        sum.energy += volume * compliance.square(&stress);
+    }
+    sum
+}
+
+/// `∂u_i/∂x_j` at a quadrature point.
+fn gradient(body: &Body, displacement: &[f64], cell: Cell<'_>, point: &Mapped) -> Matrix3<f64> {
+    let axes = body.mesh.dimension;
+    let terms = cell.nodes.iter().zip(&point.gradients);
+    terms
+        .map(|(node, gradient)| {
+            let entries = &displacement[axes * node..axes * (node + 1)];
+            let u = Vector3::from_fn(|axis, _| entries.get(axis).copied().unwrap_or(0.0));
+            u * gradient.transpose()
+        })
+        .sum()
+}
+
+fn stress(lame: Lame, model: Model, gradient: &Matrix3<f64>, theta: f64) -> [f64; 6] {
+    let e = (gradient + gradient.transpose()) / 2.0;
+    let strain = [e.m11, e.m22, e.m33, e.m23, e.m13, e.m12];
+    lame.stress(model, strain, theta)
+}
+
+fn minus(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+/// C⁻¹ of a material; with the stress out of the plane it is the same in every model.
+struct Compliance<'a>(&'a Material);
+
+impl Compliance<'_> {
+    /// `σ : C⁻¹ : σ = ((1 + ν) σ : σ − ν (tr σ)²)/E`, in J/m³.
+    fn square(&self, [xx, yy, zz, yz, xz, xy]: &[f64; 6]) -> f64 {
+        let Material { young, poisson } = self.0;
+        let product = xx * xx + yy * yy + zz * zz + 2.0 * (yz * yz + xz * xz + xy * xy);
+        let trace = xx + yy + zz;
+        ((1.0 + poisson) * product - poisson * trace * trace) / young
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::samples::distorted;
+    use crate::body::{CellKind, stiffness};
+
+    fn nodal(body: &Body, u: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64> {
+        let axes = body.mesh.dimension;
+        let values = body.mesh.nodes.iter().map(|x| u(Vector3::from(*x)));
+        values
+            .flat_map(|u| u.iter().take(axes).copied().collect::<Vec<_>>())
+            .collect()
+    }
+
+    #[test]
+    fn a_linear_displacement_has_no_error_and_its_own_energy() {
+        let h = Matrix3::new(1.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0);
+        for kind in CellKind::ALL {
+            for poisson in [0.25, 0.4999] {
+                let mut body = distorted(kind);
+                body.materials[0].poisson = poisson;
+                let u = nodal(&body, |x| h * x);
+                let found = stress_recovery(&body, &u);
+                assert!(found.error < 1e-20 * found.energy, "{kind:?} {found:?}");
+                // u · K u, by another way.
+                let k = stiffness(&body);
+                let ku = k.iter().map(|(entry, (i, j))| u[i] * entry * u[j]);
+                let twice: f64 = ku.sum();
+                assert!(
+                    (found.energy / twice - 1.0).abs() < 1e-12,
+                    "{kind:?} {poisson}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_stress_that_jumps_between_materials_is_no_error() {
+        // Two quads in a row, E = 1 and 3, under one traction: the strain jumps, ν = 0.
+        let mut body = distorted(CellKind::Quad4);
+        let positions = (0..6).map(|k| [f64::from(k % 3), f64::from(k / 3), 0.0]);
+        body.mesh = crate::body::Mesh::new(2, positions.collect());
+        body.mesh.push_cell(CellKind::Quad4, &[0, 1, 4, 3]);
+        body.mesh.push_cell(CellKind::Quad4, &[1, 2, 5, 4]);
+        let material = |young| Material {
+            young,
+            poisson: 0.0,
+        };
+        body.materials = vec![material(1.0), material(3.0)];
+        body.material_of_cell = vec![0, 1];
+        // ε_xx = 3 and 1; σ_xx = 3 in both, and σ_yy = E ε_yy jumps from 1 to 3.
+        let u = nodal(&body, |x| {
+            let along = if x[0] < 1.5 {
+                3.0 * x[0]
+            } else {
+                3.0 + (x[0] - 1.0)
+            };
+            Vector3::new(along, x[1], 0.0)
+        });
+        let found = stress_recovery(&body, &u);
+        assert!(found.error < 1e-28, "{found:?}");
+        // σ : ε = 3·3 + 1·1 and 3·1 + 3·1.
+        assert!((found.energy - 16.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_error_of_two_triangles_is_that_of_their_jump() {
+        // A square cut along a diagonal, ν = 0, E = 1, ε_xx = 0 and 1. On the two shared nodes
+        // σ* = 1/2, on the others σ itself: d = ±1/2 at two of three nodes, V = 1/2, so that
+        // η² = 2 · (1/2) (1² + 2/4)/12 = 1/8.
+        let mut body = distorted(CellKind::Tri3);
+        let corners = vec![[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        body.mesh = crate::body::Mesh::new(2, corners);
+        body.mesh.push_cell(CellKind::Tri3, &[0, 1, 2]);
+        body.mesh.push_cell(CellKind::Tri3, &[0, 2, 3]);
+        body.materials = vec![Material {
+            young: 1.0,
+            poisson: 0.0,
+        }];
+        body.material_of_cell = vec![0, 0];
+        // u_x = 1 at node 1 only: in the first triangle ε_xx = 1 and ε_xy = −1/2, else 0.
+        let found = stress_recovery(&body, &[0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+        // |σ|² of the jump is 1 + 2/4 = 3/2 of that of ε_xx alone; the energy is V 3/2.
+        assert!((found.error - 1.5 / 8.0).abs() < 1e-15, "{found:?}");
+        assert!((found.energy - 0.75).abs() < 1e-15);
+    }
+}

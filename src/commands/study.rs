@@ -1,0 +1,175 @@
+//! `dpana study`: a scene over meshes, tolerances, friction and loops.
+
+use std::error::Error;
+use std::fs;
+use std::io::{self, IsTerminal, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use dpana::report::replace_file;
+use dpana::scene::Scene;
+use dpana::study::{Plan, Progress};
+
+#[derive(Args)]
+pub(crate) struct Study {
+    /// Scene in JSON, without load steps.
+    scene: PathBuf,
+    /// Write page, tables and figures into this folder, which is made if it is not there:
+    /// `index.html`, `study.json`, `meshes.csv`, `loops.csv` and the figures in SVG.
+    #[arg(long, value_name = "FOLDER")]
+    out: PathBuf,
+    /// Number of meshes, each with twice the cells per edge of the one before.
+    #[arg(long, value_name = "N", conflicts_with_all = ["refine", "meshes"])]
+    levels: Option<u32>,
+    /// Meshes by their cells per edge, relative to the scene's: `1,1.5,2,3`.
+    #[arg(long, value_name = "FACTORS", conflicts_with = "meshes")]
+    refine: Option<String>,
+    /// Mesh files in place of the scene's one, from coarse to fine: `a.msh,b.msh`.
+    #[arg(long, value_name = "FILES", value_delimiter = ',')]
+    meshes: Vec<PathBuf>,
+    /// Coefficients of friction, for all contacts: `0.1:5:8` (from, to, how many; evenly in the
+    /// logarithm) or `0.1,0.5`. `none` for the scene's own only.
+    #[arg(long, value_name = "VALUES")]
+    friction: Option<String>,
+    /// Tolerances of the outer loop, from loose to tight: `1e-4,1e-8,1e-12`.
+    #[arg(long, value_name = "VALUES")]
+    tolerances: Option<String>,
+    /// A total that is known, by its column in the table of `dpana solve --table`:
+    /// `friction_x=-1.40536e6`. May be given again.
+    #[arg(long, value_name = "NAME=VALUE", allow_hyphen_values = true)]
+    known: Vec<String>,
+    /// Compare loops on the finest mesh with at most so many contact unknowns.
+    #[arg(long, value_name = "N")]
+    loop_unknowns: Option<usize>,
+    /// Two meshes, two tolerances, two coefficients, nothing repeated.
+    #[arg(long)]
+    quick: bool,
+}
+
+pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
+    let plan = plan(arguments)?;
+    let scene = Scene::from_file(&arguments.scene)?;
+    fs::create_dir_all(&arguments.out)
+        .map_err(|error| format!("--out {}: {error}", arguments.out.display()))?;
+    let shown = io::stderr().is_terminal();
+    let study = dpana::study(&scene, &plan, |progress| {
+        if shown {
+            show(progress);
+        }
+    })?;
+    let write = |name: &str, text: &str| replace_file(&arguments.out.join(name), text);
+    write("study.json", &study.to_json())?;
+    write("meshes.csv", &study.mesh_table().to_csv())?;
+    write("loops.csv", &study.run_table().to_csv())?;
+    for (name, figure) in study.figures() {
+        write(&format!("{name}.svg"), &figure.to_svg())?;
+    }
+    write("index.html", &study.page(&command_line()))?;
+    let mut out = io::stdout().lock();
+    for sentence in study.sentences() {
+        writeln!(out, "{sentence}")?;
+    }
+    writeln!(out, "{}", arguments.out.join("index.html").display())?;
+    let certified =
+        |mesh: &dpana::report::StudiedMesh| mesh.status == dpana::report::Status::Certified;
+    Ok(match study.meshes.iter().all(certified) {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(1),
+    })
+}
+
+fn plan(arguments: &Study) -> Result<Plan, String> {
+    let mut plan = if arguments.quick {
+        Plan::quick()
+    } else {
+        Plan::default()
+    };
+    if let Some(levels) = arguments.levels {
+        if !(1..=10).contains(&levels) {
+            return Err(format!("--levels {levels}: not accepted; expected 1 to 10"));
+        }
+        plan.refine = (0..levels).map(|level| f64::from(1_u32 << level)).collect();
+    }
+    if let Some(text) = &arguments.refine {
+        plan.refine = numbers("--refine", text)?;
+    }
+    if let Some(text) = &arguments.tolerances {
+        plan.tolerances = numbers("--tolerances", text)?;
+    }
+    match arguments.friction.as_deref() {
+        None => {}
+        Some("none") => plan.friction.clear(),
+        Some(text) => plan.friction = frictions(text)?,
+    }
+    for text in &arguments.known {
+        let refuse = || format!("--known {text}: not understood; expected NAME=VALUE");
+        let (name, value) = text.split_once('=').ok_or_else(refuse)?;
+        let value = value.trim().parse().map_err(|_| refuse())?;
+        plan.known.push((name.trim().to_owned(), value));
+    }
+    if let Some(most) = arguments.loop_unknowns {
+        plan.loop_unknowns = most;
+    }
+    plan.meshes.clone_from(&arguments.meshes);
+    Ok(plan)
+}
+
+fn numbers(option: &str, text: &str) -> Result<Vec<f64>, String> {
+    let number = |word: &str| {
+        word.trim()
+            .parse()
+            .map_err(|_| format!("{option} {text}: `{word}` is no number; expected 1,2,4"))
+    };
+    text.split(',').map(number).collect()
+}
+
+/// Reads `from:to:count`, evenly in the logarithm, or values.
+fn frictions(text: &str) -> Result<Vec<f64>, String> {
+    let parts: Vec<&str> = text.split(':').collect();
+    let [from, to, count] = parts[..] else {
+        return numbers("--friction", text);
+    };
+    let refuse = || {
+        format!(
+            "--friction {text}: not understood; expected FROM:TO:COUNT, both positive, COUNT 2 to 100"
+        )
+    };
+    let number = |word: &str| word.trim().parse::<f64>().map_err(|_| refuse());
+    let (from, to) = (number(from)?, number(to)?);
+    let count: u32 = count.trim().parse().map_err(|_| refuse())?;
+    if !(from > 0.0 && to > 0.0 && from.is_finite() && to.is_finite() && (2..=100).contains(&count))
+    {
+        return Err(refuse());
+    }
+    let at = |k: u32| from * (to / from).powf(f64::from(k) / f64::from(count - 1));
+    // Three digits are as good to study, and better to read.
+    let rounded = |value: f64| format!("{value:.2e}").parse().unwrap_or(value);
+    Ok((0..count).map(|k| rounded(at(k))).collect())
+}
+
+/// One line on the terminal, written over the one before.
+fn show(Progress { done, of, doing }: Progress<'_>) {
+    let filled = (20 * done).checked_div(of).unwrap_or(0);
+    let bar: String = (0..20)
+        .map(|k| if k < filled { '█' } else { '·' })
+        .collect();
+    let mut terminal = io::stderr().lock();
+    let end = if done == of { "\n" } else { "" };
+    // A progress line that cannot be written is no reason to stop.
+    let _ = write!(terminal, "\r\x1b[K{bar} {done}/{of} {doing}{end}");
+    let _ = terminal.flush();
+}
+
+/// What was typed, with the program's name in place of its path.
+fn command_line() -> String {
+    let mut words: Vec<String> = std::env::args().collect();
+    if let Some(program) = words.first_mut() {
+        let name = Path::new(program.as_str()).file_name();
+        *program = name.map_or_else(
+            || "dpana".to_owned(),
+            |name| name.to_string_lossy().into_owned(),
+        );
+    }
+    words.join(" ")
+}

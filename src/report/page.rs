@@ -1,0 +1,329 @@
+//! A study as one page of HTML that needs nothing else: what is seen, figures, tables.
+
+use std::fmt::Write;
+
+use super::figure::escaped;
+use super::{Status, StudiedRun, Study};
+
+const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:960px;\
+margin:2em auto;padding:0 1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em}\
+svg{max-width:100%;height:auto}figure{margin:1.5em 0}figcaption{color:#555;font-size:.9em}\
+div.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;white-space:nowrap}\
+th,td{padding:.25em .6em;border-bottom:1px solid #ddd;text-align:right}\
+th:first-child,td:first-child{text-align:left}tr.bad td{color:#a33}";
+
+impl Study {
+    /// The page; `command` is what made it.
+    #[must_use]
+    pub fn page(&self, command: &str) -> String {
+        let title = match self.title.as_str() {
+            "" => "A contact study",
+            title => title,
+        };
+        let title = escaped(title);
+        let mut page = format!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width\">\n<title>{title}</title>\n\
+             <style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>\n\
+             <p>Made by <code>{}</code>; units: {}.</p>\n<h2>What is seen</h2>\n<ul>\n",
+            escaped(command),
+            if self.units.is_empty() {
+                "those of the scene".to_owned()
+            } else {
+                escaped(&self.units)
+            }
+        );
+        for sentence in self.sentences() {
+            let _ = writeln!(page, "<li>{}</li>", escaped(&sentence));
+        }
+        page += "</ul>\n";
+        for (name, figure) in self.figures() {
+            let caption = escaped(caption(name));
+            let svg = figure.to_svg();
+            let _ = writeln!(
+                page,
+                "<figure>\n{svg}<figcaption>{caption}</figcaption>\n</figure>"
+            );
+        }
+        self.mesh_rows(&mut page);
+        self.run_rows(&mut page);
+        page + "</body>\n</html>\n"
+    }
+
+    fn mesh_rows(&self, page: &mut String) {
+        let known = self.meshes.first().map_or(&[][..], |mesh| &mesh.known);
+        let mut heads: Vec<String> = [
+            "mesh",
+            "unknowns",
+            "contacts",
+            "status",
+            "sweeps",
+            "Newton",
+            "residual",
+            "ordering s",
+            "factorisation s",
+            "condensation s",
+            "sweeps s",
+            "finish s",
+            "total s",
+            "oscillation",
+            "estimated error",
+            "error to finest",
+            "effectivity",
+        ]
+        .map(str::to_owned)
+        .to_vec();
+        heads.extend(known.iter().map(|known| format!("{} off by", known.name)));
+        let rows = self.meshes.iter().map(|mesh| {
+            let spent = &mesh.seconds;
+            let mut row = vec![
+                mesh.name.clone(),
+                mesh.unknowns.to_string(),
+                mesh.size.contacts.to_string(),
+                words(mesh.status).to_owned(),
+                mesh.sweeps.to_string(),
+                mesh.newton_steps.to_string(),
+                size(mesh.certificate.natural_map),
+            ];
+            row.extend([spent.ordering, spent.factorisation, spent.condensation].map(seconds));
+            row.extend([spent.sweeps, spent.finish, spent.total].map(seconds));
+            let quality = &mesh.quality;
+            row.extend(
+                [
+                    quality.oscillation,
+                    quality.stress_error_estimate,
+                    mesh.error,
+                ]
+                .map(|part| part.map_or_else(|| "–".to_owned(), size)),
+            );
+            row.push(
+                mesh.effectivity
+                    .map_or_else(|| "–".to_owned(), |e| format!("{e:.2}")),
+            );
+            row.extend(mesh.known.iter().map(|known| size(known.error)));
+            (mesh.status != Status::Certified, row)
+        });
+        table(page, "The default loop, mesh by mesh", &heads, rows);
+    }
+
+    fn run_rows(&self, page: &mut String) {
+        let heads = [
+            "loop",
+            "contacts",
+            "friction",
+            "tolerance",
+            "status",
+            "sweeps",
+            "passes",
+            "Newton",
+            "residual",
+            "energy gap",
+            "distance",
+            "seconds",
+        ]
+        .map(str::to_owned);
+        let rows = self.runs.iter().map(|run| {
+            let friction = run
+                .friction
+                .map_or_else(|| "scene's".to_owned(), |mu| mu.to_string());
+            let row = vec![
+                run.name.to_owned(),
+                run.contacts.to_string(),
+                friction,
+                format!("{:.0e}", run.tolerance),
+                words(run.status).to_owned(),
+                run.sweeps.to_string(),
+                run.passes.to_string(),
+                run.newton_steps.to_string(),
+                size(run.natural_map),
+                size(run.energy_gap),
+                size(run.distance),
+                seconds(run.seconds),
+            ];
+            (run.status != Status::Certified, row)
+        });
+        table(page, "Loops on the condensed problem", &heads, rows);
+    }
+
+    /// What a person would say after a look at the figures.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        let certified = self
+            .meshes
+            .iter()
+            .filter(|mesh| mesh.status == Status::Certified)
+            .count();
+        let most = |count: fn(&super::StudiedMesh) -> usize| self.meshes.iter().map(count).max();
+        if let (Some(sweeps), Some(steps)) = (most(|m| m.sweeps), most(|m| m.newton_steps)) {
+            said.push(format!(
+                "The default loop is certified on {certified} of {} meshes, in at most {sweeps} \
+                 sweeps and {steps} Newton steps.",
+                self.meshes.len()
+            ));
+        }
+        if !self.exponents.is_empty() {
+            let fitted = self.exponents.iter();
+            let fitted: Vec<String> = fitted
+                .map(|fitted| format!("{} {:.2}", fitted.stage, fitted.power))
+                .collect();
+            said.push(format!(
+                "Time grows with the unknowns to the power: {}.",
+                fitted.join(", ")
+            ));
+        }
+        let mut effectivities: Vec<f64> = self
+            .meshes
+            .iter()
+            .filter_map(|mesh| mesh.effectivity)
+            .collect();
+        // One halving away the finest mesh is itself too wrong to be held against.
+        effectivities.pop();
+        if let (Some(least), Some(largest)) = (
+            effectivities.iter().copied().reduce(f64::min),
+            effectivities.iter().copied().reduce(f64::max),
+        ) {
+            said.push(format!(
+                "The estimated error of the stress is {least:.2} to {largest:.2} times the \
+                 difference to the finest mesh."
+            ));
+        }
+        said.extend(self.duels());
+        for name in Self::loops(self.runs.iter()) {
+            let lost = self.runs.iter().filter(|run| {
+                run.name == name && run.status != Status::Certified && run.friction.is_some()
+            });
+            let lost: Vec<String> = lost
+                .filter_map(|run| run.friction)
+                .map(|mu| mu.to_string())
+                .collect();
+            if !lost.is_empty() {
+                said.push(format!("{name}: gave up at μ = {}.", lost.join(", ")));
+            }
+        }
+        said
+    }
+
+    /// The default against Gauss–Seidel, tolerance by tolerance.
+    fn duels(&self) -> Vec<String> {
+        let mut said = Vec::new();
+        let of = |name: &'static str, like: &StudiedRun| {
+            let (mesh, tolerance) = (like.mesh, like.tolerance);
+            self.runs.iter().find(move |run| {
+                run.name == name
+                    && run.friction.is_none()
+                    && (run.mesh, run.tolerance) == (mesh, tolerance)
+            })
+        };
+        let own = self
+            .runs
+            .iter()
+            .filter(|run| run.friction.is_none() && run.name == "NSGS");
+        let mut seen = Vec::new();
+        for baseline in own {
+            let Some(default) = of("default", baseline) else {
+                continue;
+            };
+            let key = (baseline.mesh, baseline.tolerance);
+            if seen.contains(&key) {
+                continue;
+            }
+            seen.push(key);
+            let (contacts, passes) = (baseline.contacts, baseline.passes);
+            let to = format!("{contacts} contacts to {:.0e}", baseline.tolerance);
+            let (slow, fast) = (baseline.seconds, default.seconds);
+            said.push(match (baseline.status == Status::Certified, slow < fast) {
+                (false, _) => format!(
+                    "{to}: Gauss–Seidel gave up after {passes} passes and {} s with a residual of \
+                     {}; the default loop took {} s.",
+                    seconds(slow),
+                    size(baseline.natural_map),
+                    seconds(fast)
+                ),
+                (true, true) => format!(
+                    "{to}: Gauss–Seidel wins, {} s in {passes} passes against {} s.",
+                    seconds(slow),
+                    seconds(fast)
+                ),
+                (true, false) => format!(
+                    "{to}: the default loop wins, {} s against {} s in {passes} passes.",
+                    seconds(fast),
+                    seconds(slow)
+                ),
+            });
+        }
+        said
+    }
+}
+
+fn caption(figure: &str) -> &'static str {
+    match figure {
+        "mesh_error" => {
+            "Every point is a mesh. The difference to the finest mesh is in the energy norm of all \
+             bodies; the estimate knows nothing of that mesh."
+        }
+        "time_unknowns" => {
+            "The stages of a whole solve; n^p by least squares over the finest meshes."
+        }
+        "time_contacts" => {
+            "The default loop and projected block Gauss–Seidel (NSGS) on the same condensed \
+             problems; the condensation counts on neither side."
+        }
+        "time_error" => {
+            "Every point is a tolerance. t* is the solution of the same condensed problem, so that \
+             the mesh's own error is not in it."
+        }
+        "residual_time" => "The judge's residual after every sweep, to the tightest tolerance.",
+        "sweeps_friction" => "Every point is a solve; Gauss–Seidel counts passes.",
+        _ => "",
+    }
+}
+
+fn table(
+    page: &mut String,
+    title: &str,
+    heads: &[String],
+    rows: impl Iterator<Item = (bool, Vec<String>)>,
+) {
+    let cells = |tag: &str, cells: &[String]| {
+        let cells = cells
+            .iter()
+            .map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell)));
+        cells.collect::<String>()
+    };
+    let _ = write!(
+        page,
+        "<h2>{title}</h2>\n<div class=\"wide\"><table>\n<tr>{}</tr>\n",
+        cells("th", heads)
+    );
+    for (bad, row) in rows {
+        let class = if bad { " class=\"bad\"" } else { "" };
+        let _ = writeln!(page, "<tr{class}>{}</tr>", cells("td", &row));
+    }
+    *page += "</table></div>\n";
+}
+
+fn words(status: Status) -> &'static str {
+    match status {
+        Status::Certified => "certified",
+        Status::NotConverged => "gave up",
+        Status::NoEquilibrium => "no equilibrium",
+    }
+}
+
+fn size(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:.1e}")
+    } else {
+        "–".to_owned()
+    }
+}
+
+fn seconds(spent: f64) -> String {
+    match spent {
+        s if s >= 10.0 => format!("{s:.1}"),
+        s if s >= 0.1 => format!("{s:.2}"),
+        s if s >= 1e-3 => format!("{s:.4}"),
+        s => format!("{s:.1e}"),
+    }
+}

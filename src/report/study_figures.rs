@@ -1,0 +1,236 @@
+//! The figures of a study.
+
+use super::figure::{Axis, Curve, Figure, Point};
+use super::{Status, StudiedMesh, StudiedRun, Study};
+
+impl Study {
+    /// The figures that the study has points for, each with a short name for its file.
+    #[must_use]
+    pub fn figures(&self) -> Vec<(&'static str, Figure)> {
+        let all = [
+            ("mesh_error", self.mesh_error()),
+            ("time_unknowns", self.time_unknowns()),
+            ("time_contacts", self.time_contacts()),
+            ("time_error", self.time_error()),
+            ("residual_time", self.residual_time()),
+            ("sweeps_friction", self.sweeps_friction()),
+        ];
+        let drawn = all
+            .into_iter()
+            .filter(|(_, figure)| !figure.curves.is_empty());
+        drawn.collect()
+    }
+
+    /// Loops that were compared on one mesh, with the scene's friction.
+    pub(super) fn compared(&self) -> impl Iterator<Item = &StudiedRun> {
+        let mesh = self.compared_on();
+        let own = move |run: &&StudiedRun| run.friction.is_none() && Some(run.mesh) == mesh;
+        self.runs.iter().filter(own)
+    }
+
+    /// The mesh on which loops were compared: the one with the most of them.
+    pub(super) fn compared_on(&self) -> Option<usize> {
+        let runs = |mesh: usize| self.runs.iter().filter(move |run| run.mesh == mesh).count();
+        (0..self.meshes.len()).max_by_key(|mesh| runs(*mesh))
+    }
+
+    /// Names of loops, each once, in the order of their first run.
+    pub(super) fn loops<'a>(runs: impl Iterator<Item = &'a StudiedRun>) -> Vec<&'static str> {
+        let mut names = Vec::new();
+        for run in runs {
+            if !names.contains(&run.name) {
+                names.push(run.name);
+            }
+        }
+        names
+    }
+
+    fn contacts(&self) -> String {
+        let mesh = self.compared_on().and_then(|mesh| self.meshes.get(mesh));
+        mesh.map_or_else(String::new, |mesh| {
+            format!(", {} contacts", mesh.size.contacts)
+        })
+    }
+
+    fn mesh_error(&self) -> Figure {
+        let curve = |name: &str, value: &dyn Fn(&StudiedMesh) -> Option<f64>| {
+            let points = self.meshes.iter().filter_map(|mesh| {
+                Some(Point {
+                    at: [mesh.seconds.total, value(mesh)?],
+                    open: mesh.status != Status::Certified,
+                })
+            });
+            let points: Vec<Point> = points.collect();
+            (points.len() > 1).then(|| Curve {
+                name: name.to_owned(),
+                points,
+            })
+        };
+        let mut curves = vec![
+            curve("to the finest mesh, energy", &|mesh| mesh.error),
+            curve("estimated, stress recovery", &|mesh| {
+                mesh.quality.stress_error_estimate
+            }),
+            curve("oscillation of the pressure", &|mesh| {
+                mesh.quality.oscillation
+            }),
+        ];
+        let known = self.meshes.first().map_or(0, |mesh| mesh.known.len());
+        for at in 0..known {
+            let name = format!("{}, known value", self.meshes[0].known[at].name);
+            curves.push(curve(&name, &|mesh| mesh.known.get(at).map(|k| k.error)));
+        }
+        Figure {
+            title: "Time against error, mesh by mesh".to_owned(),
+            across: decades("seconds of the whole solve"),
+            up: decades("relative error"),
+            curves: curves.into_iter().flatten().collect(),
+            open: "not certified",
+        }
+    }
+
+    fn time_unknowns(&self) -> Figure {
+        let stages = self.meshes.first().map(|mesh| mesh.seconds.by_name());
+        let stages = stages.iter().flatten().filter(|_| self.meshes.len() > 1);
+        let curve = |(at, (name, _)): (usize, &(&'static str, f64))| {
+            let fitted = self.exponents.iter().find(|fitted| fitted.stage == *name);
+            let power = fitted.map_or_else(String::new, |f| format!(" ~ n^{:.2}", f.power));
+            let points = self.meshes.iter().map(|mesh| Point {
+                at: [mesh.unknowns as f64, mesh.seconds.by_name()[at].1],
+                open: false,
+            });
+            Curve {
+                name: format!("{name}{power}"),
+                points: points.collect(),
+            }
+        };
+        Figure {
+            title: "Time against unknowns, stage by stage".to_owned(),
+            across: decades("unknowns n"),
+            up: decades("seconds"),
+            curves: stages.enumerate().map(curve).collect(),
+            open: "",
+        }
+    }
+
+    fn time_contacts(&self) -> Figure {
+        let mut curves: Vec<Curve> = Vec::new();
+        let of_scene = self.runs.iter().filter(|run| run.friction.is_none());
+        let ends = |run: &&StudiedRun| ["default", "NSGS"].contains(&run.name);
+        let mut seen: Vec<(&str, f64, usize)> = Vec::new();
+        for run in of_scene.filter(ends) {
+            let key = (run.name, run.tolerance, run.mesh);
+            if seen.contains(&key) {
+                continue;
+            }
+            seen.push(key);
+            let name = format!("{} to {:.0e}", run.name, run.tolerance);
+            let point = Point {
+                at: [run.contacts as f64, run.seconds],
+                open: run.status != Status::Certified,
+            };
+            match curves.iter_mut().find(|curve| curve.name == name) {
+                Some(curve) => curve.points.push(point),
+                None => curves.push(Curve {
+                    name,
+                    points: vec![point],
+                }),
+            }
+        }
+        curves.retain(|curve| curve.points.len() > 1);
+        Figure {
+            title: "The loop alone against Gauss–Seidel".to_owned(),
+            across: decades("contacts"),
+            up: decades("seconds on the condensed problem"),
+            curves,
+            open: "given up",
+        }
+    }
+
+    fn time_error(&self) -> Figure {
+        self.by_loop(
+            &format!("Time against error, loop by loop{}", self.contacts()),
+            [
+                "seconds on the condensed problem",
+                "‖t − t*‖ / ‖t*‖, energy norm",
+            ],
+            |run| vec![[run.seconds, run.distance]],
+        )
+    }
+
+    fn residual_time(&self) -> Figure {
+        let tightest = self.compared().map(|run| run.tolerance).fold(1.0, f64::min);
+        self.by_loop(
+            &format!("Residual against time{}", self.contacts()),
+            ["seconds on the condensed problem", "natural-map residual"],
+            |run| match run.tolerance == tightest {
+                true => run.course.clone(),
+                false => Vec::new(),
+            },
+        )
+    }
+
+    fn by_loop(
+        &self,
+        title: &str,
+        labels: [&str; 2],
+        points: impl Fn(&StudiedRun) -> Vec<[f64; 2]>,
+    ) -> Figure {
+        let curve = |name: &str| {
+            let own = self.compared().filter(|run| run.name == name);
+            let points = own.flat_map(|run| {
+                let open = run.status != Status::Certified;
+                points(run).into_iter().map(move |at| Point { at, open })
+            });
+            Curve {
+                name: name.to_owned(),
+                points: points.collect(),
+            }
+        };
+        let names = Self::loops(self.compared()).into_iter();
+        Figure {
+            title: title.to_owned(),
+            across: decades(labels[0]),
+            up: decades(labels[1]),
+            curves: names.map(curve).collect(),
+            open: "gave up",
+        }
+    }
+
+    fn sweeps_friction(&self) -> Figure {
+        let varied = || self.runs.iter().filter(|run| run.friction.is_some());
+        let curve = |name: &'static str| {
+            let own = varied().filter(|run| run.name == name);
+            let points = own.map(|run| Point {
+                at: [
+                    run.friction.unwrap_or(f64::NAN),
+                    if run.sweeps > 0 {
+                        run.sweeps
+                    } else {
+                        run.passes
+                    } as f64,
+                ],
+                open: run.status != Status::Certified,
+            });
+            let unit = if name == "NSGS" { ", passes" } else { "" };
+            Curve {
+                name: format!("{name}{unit}"),
+                points: points.collect(),
+            }
+        };
+        Figure {
+            title: format!("Sweeps against friction{}", self.contacts()),
+            across: decades("coefficient of friction μ"),
+            up: decades("sweeps to the tightest tolerance"),
+            curves: Self::loops(varied()).into_iter().map(curve).collect(),
+            open: "gave up",
+        }
+    }
+}
+
+fn decades(label: &str) -> Axis {
+    Axis {
+        label: label.to_owned(),
+        logarithmic: true,
+    }
+}

@@ -1,0 +1,240 @@
+//! Loops against each other on one condensed problem.
+
+use std::rc::Rc;
+use std::time::Instant;
+
+use super::ladder::SHORT;
+use super::plan::Plan;
+use crate::condensation::ContactProblem;
+use crate::dpana::{self, Mixing, Outcome, Settings, Sweeps, Variant};
+use crate::error::Error;
+use crate::report::StudiedRun;
+
+/// Loops by name: the default first, the baseline last.
+const LOOPS: [(&str, Variant); 9] = [
+    ("default", Variant::Default),
+    ("plain sweeps", Variant::PLAIN),
+    ("plain, inexact", sweeps(Mixing::None, false, false)),
+    ("relaxed by 1/2", sweeps(Mixing::Relaxed(0.5), true, false)),
+    ("Anderson", sweeps(Mixing::Anderson, true, false)),
+    ("Anderson, inexact", sweeps(Mixing::Anderson, false, false)),
+    ("plain, inexact, finish", sweeps(Mixing::None, false, true)),
+    ("full-cone fixed point", Variant::FullCone),
+    ("NSGS", Variant::Nsgs),
+];
+
+const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Variant {
+    Variant::Sweeps(Sweeps {
+        mixing,
+        exact,
+        finish,
+    })
+}
+
+/// Multiplications that the passes of one Gauss–Seidel solve may take: about ten seconds.
+const MOST_WORK: f64 = 1e10;
+
+/// The solution that loops are held against is computed to this part of the tightest tolerance.
+const CLOSER: f64 = 1e-2;
+
+/// A problem, and the reaction that solves it as far as the default loop comes.
+struct Reference {
+    problem: ContactProblem,
+    /// Coefficient for all contacts; none where they keep the scene's.
+    friction: Option<f64>,
+    reaction: Vec<f64>,
+}
+
+/// One loop on one problem to one tolerance.
+pub(super) struct LoopRun<'a> {
+    plan: &'a Plan,
+    mesh: usize,
+    reference: Rc<Reference>,
+    name: &'static str,
+    variant: Variant,
+    tolerance: f64,
+}
+
+/// The default and the baseline, to the loosest and the tightest tolerance.
+pub(super) fn of_mesh<'a>(
+    mesh: usize,
+    problem: &ContactProblem,
+    plan: &'a Plan,
+) -> Result<Vec<LoopRun<'a>>, Error> {
+    let reference = Rc::new(Reference::new(problem.clone(), None, plan)?);
+    let ends = [LOOPS[0], LOOPS[LOOPS.len() - 1]];
+    let (loosest, tightest) = tolerances(plan);
+    let mut runs = Vec::new();
+    for tolerance in [loosest, tightest] {
+        runs.extend(runs_of(&ends, mesh, &reference, tolerance, plan));
+    }
+    Ok(runs)
+}
+
+/// Every loop to every tolerance, then every loop with every coefficient of friction to the
+/// tightest.
+pub(super) fn all<'a>(
+    mesh: usize,
+    problem: &ContactProblem,
+    plan: &'a Plan,
+) -> Result<Vec<LoopRun<'a>>, Error> {
+    let reference = Rc::new(Reference::new(problem.clone(), None, plan)?);
+    let mut runs = Vec::new();
+    for &tolerance in &plan.tolerances {
+        runs.extend(runs_of(&LOOPS, mesh, &reference, tolerance, plan));
+    }
+    let has_tangents = problem.unknowns() > problem.contacts();
+    for &friction in plan.friction.iter().filter(|_| has_tangents) {
+        let blocks = problem.offsets().windows(2);
+        let per_contact = blocks.map(|ends| if ends[1] - ends[0] > 1 { friction } else { 0.0 });
+        let problem = problem.with_friction(per_contact.collect())?;
+        let reference = Rc::new(Reference::new(problem, Some(friction), plan)?);
+        runs.extend(runs_of(&LOOPS, mesh, &reference, tolerances(plan).1, plan));
+    }
+    Ok(runs)
+}
+
+/// Loops for study do not know bodies that float.
+fn runs_of<'a>(
+    loops: &[(&'static str, Variant)],
+    mesh: usize,
+    reference: &Rc<Reference>,
+    tolerance: f64,
+    plan: &'a Plan,
+) -> Vec<LoopRun<'a>> {
+    let floats = reference.problem.floating().is_some();
+    let loops = loops
+        .iter()
+        .filter(|(_, variant)| !floats || *variant == Variant::Default);
+    loops
+        .map(|&(name, variant)| LoopRun {
+            plan,
+            mesh,
+            reference: Rc::clone(reference),
+            name,
+            variant,
+            tolerance,
+        })
+        .collect()
+}
+
+/// Loosest and tightest.
+fn tolerances(plan: &Plan) -> (f64, f64) {
+    let all = plan.tolerances.iter().copied();
+    (all.clone().fold(0.0, f64::max), all.fold(1.0, f64::min))
+}
+
+impl Reference {
+    fn new(problem: ContactProblem, friction: Option<f64>, plan: &Plan) -> Result<Self, Error> {
+        let settings = Settings {
+            tolerance: (CLOSER * tolerances(plan).1).max(1e-15),
+            max_sweeps: plan.sweeps,
+            variant: Variant::Default,
+        };
+        let reaction = dpana::solve(&problem, &settings)?.reaction;
+        Ok(Self {
+            problem,
+            friction,
+            reaction,
+        })
+    }
+
+    /// (S2) of a reaction; NaN without any reaction.
+    fn distance(&self, reaction: &[f64]) -> f64 {
+        let difference = reaction.iter().zip(&self.reaction).map(|(a, b)| a - b);
+        (self.energy(&difference.collect::<Vec<_>>()) / self.energy(&self.reaction)).sqrt()
+    }
+
+    /// `t · G t`, in joule.
+    fn energy(&self, reaction: &[f64]) -> f64 {
+        let columns = self.problem.compliance().col_iter().zip(reaction);
+        columns
+            .map(|(column, t)| t * column.iter().zip(reaction).map(|(g, s)| g * s).sum::<f64>())
+            .sum()
+    }
+}
+
+impl LoopRun<'_> {
+    /// The run in words.
+    pub(super) fn name(&self) -> String {
+        match self.reference.friction {
+            None => format!("{} to {:.0e}", self.name, self.tolerance),
+            Some(friction) => format!("{} with friction {friction}", self.name),
+        }
+    }
+
+    /// Runs the loop, several times if that is short.
+    pub(super) fn run(&self) -> Result<StudiedRun, Error> {
+        let (mut outcome, mut seconds) = self.timed()?;
+        let mut all = vec![seconds];
+        while all.len() < self.plan.repetitions && seconds < SHORT {
+            (outcome, seconds) = self.timed()?;
+            all.push(seconds);
+        }
+        all.sort_by(f64::total_cmp);
+        let certificate = &outcome.verdict.certificate;
+        let gap = certificate.bipotential_gap.max(0.0) / certificate.reaction_energy;
+        Ok(StudiedRun {
+            mesh: self.mesh,
+            name: self.name,
+            friction: self.reference.friction,
+            tolerance: self.tolerance,
+            status: outcome.status.into(),
+            natural_map: certificate.natural_map,
+            energy_gap: gap.sqrt(),
+            distance: self.reference.distance(&outcome.reaction),
+            contacts: self.reference.problem.contacts(),
+            sweeps: if self.variant == Variant::Nsgs {
+                0
+            } else {
+                outcome.work.sweeps
+            },
+            passes: outcome.work.passes,
+            newton_steps: outcome.work.newton_steps,
+            cone_iterations: outcome.work.cone_iterations,
+            seconds: all[all.len() / 2],
+            course: self.course(&outcome),
+        })
+    }
+
+    /// The seconds of Gauss–Seidel are those of its passes alone, without the judge.
+    fn timed(&self) -> Result<(Outcome, f64), Error> {
+        let problem = self.reference.problem.unasked();
+        let settings = Settings {
+            tolerance: self.tolerance,
+            max_sweeps: self.most_sweeps(),
+            variant: self.variant,
+        };
+        let start = Instant::now();
+        let outcome = dpana::solve(&problem, &settings)?;
+        let seconds = match self.variant {
+            Variant::Nsgs => outcome.work.seconds.predict,
+            _ => start.elapsed().as_secs_f64(),
+        };
+        Ok((outcome, seconds))
+    }
+
+    fn most_sweeps(&self) -> usize {
+        if self.variant != Variant::Nsgs {
+            return self.plan.sweeps;
+        }
+        let work = (self.reference.problem.unknowns() as f64).powi(2);
+        self.plan.passes.min((MOST_WORK / work).ceil() as usize)
+    }
+
+    /// Seconds since the start and the judge's residual, wherever that was asked.
+    fn course(&self, outcome: &Outcome) -> Vec<[f64; 2]> {
+        let mut at = match self.variant {
+            Variant::Nsgs => 0.0,
+            _ => outcome.work.seconds.predict,
+        };
+        let mut course: Vec<[f64; 2]> = Vec::new();
+        for sweep in &outcome.history {
+            at += sweep.seconds;
+            if course.last().is_none_or(|last| last[1] != sweep.residual) {
+                course.push([at, sweep.residual]);
+            }
+        }
+        course
+    }
+}

@@ -1,0 +1,68 @@
+//! STUDY: one scene over meshes, tolerances, friction and loops: how fast, how wrong.
+//!
+//! ```text
+//! (S1)  mesh       relative difference to the finest mesh in the energy norm, and to known totals
+//! (S2)  loop       ‖t − t*‖_G / ‖t*‖_G on one mesh, t* the default loop's at the tightest tolerance
+//! (S3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
+//! (S4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
+//! ```
+//!
+//! A mesh that is generated is refined by its number of cells; meshes from files are given as a
+//! list. Loops are compared on the finest mesh whose contact surface is small enough for all of
+//! them, on an operator that is condensed once, so that its cost counts on no side. What takes less
+//! than a quarter of a second is repeated, and the median is kept.
+
+mod ladder;
+mod loops;
+mod plan;
+mod tensor_grid;
+
+pub use plan::{Plan, Progress};
+
+use crate::error::Error;
+use crate::report::Study;
+use crate::scene::Scene;
+use ladder::Ladder;
+
+/// Runs a scene over the meshes, tolerances, coefficients of friction and loops of a plan, and
+/// tells `progress` before each of them.
+///
+/// # Errors
+///
+/// A plan outside its ranges or one that does not fit the scene, a scene with load steps, and
+/// whatever is wrong with the scene on any of the meshes. A loop that does not converge is no
+/// error: the study says so.
+pub fn study(
+    scene: &Scene,
+    plan: &Plan,
+    mut progress: impl FnMut(Progress<'_>),
+) -> Result<Study, Error> {
+    plan.validate()?;
+    let scenes = plan.scenes(scene)?;
+    let mut ladder = Ladder::default();
+    let mut runs = Vec::new();
+    for (done, (name, scene)) in scenes.iter().enumerate() {
+        let (of, doing) = (scenes.len() + 1, &format!("mesh {name}"));
+        progress(Progress { done, of, doing });
+        let problem = ladder.climb(name, scene, plan)?;
+        for run in loops::of_mesh(done, &problem, plan)? {
+            runs.push(run.run()?);
+        }
+    }
+    let (meshes, chosen) = ladder.finish();
+    let compared = chosen.map(|(mesh, problem)| loops::all(mesh, &problem, plan));
+    let compared = compared.transpose()?.unwrap_or_default();
+    let of = scenes.len() + compared.len();
+    for (at, run) in compared.iter().enumerate() {
+        let (done, doing) = (scenes.len() + at, &run.name());
+        progress(Progress { done, of, doing });
+        runs.push(run.run()?);
+    }
+    let doing = "the page";
+    progress(Progress {
+        done: of,
+        of,
+        doing,
+    });
+    Ok(Study::new(&scene.title, &scene.units, meshes, runs))
+}
