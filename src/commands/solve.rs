@@ -42,6 +42,9 @@ pub(crate) struct Solve {
     /// Take a load history on from the state in this file.
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
+    /// Estimate the error of the stress, which takes one more pass over all cells.
+    #[arg(long)]
+    quality: bool,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -61,7 +64,10 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
         states.add(arguments, axes, solution)
     })?;
-    let report = solution.report()?;
+    let mut report = solution.report()?;
+    if arguments.quality {
+        report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
+    }
     if let Some(path) = &arguments.report {
         replace_file(path, &report.to_json())?;
     }

@@ -112,6 +112,7 @@ fn plan(arguments: &Study) -> Result<Plan, String> {
         plan.loop_unknowns = most;
     }
     plan.meshes.clone_from(&arguments.meshes);
+    plan.validate().map_err(|error| error.to_string())?;
     Ok(plan)
 }
 
