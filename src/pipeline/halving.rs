@@ -13,7 +13,8 @@ const DEPTH: i32 = 6;
 pub(super) struct Path {
     pub(super) last: Reached,
     pub(super) ledger: Ledger,
-    pub(super) halving: Option<Halving>,
+    /// Of the parts that it was solved in; none where it was not halved.
+    change: Option<Change>,
 }
 
 /// What halving the parts of a step, as it was solved, still changed.
@@ -30,33 +31,38 @@ pub struct Halving {
     pub resolved: bool,
 }
 
-/// A part of a step in one, and in two.
+/// What parts of a step change where they are halved.
 struct Change {
+    parts: usize,
+    /// In joule.
     dissipation: f64,
     contacts: usize,
     /// Area of these contacts beside the area of contact.
     area: f64,
-    /// Work of the part, and the share of its length in the elastic energy, in joule.
-    energy: f64,
 }
 
 impl Course<'_> {
-    /// The way to an instant, halved where the scene asks for it and the start has an instant.
+    /// The way to an instant, halved where the scene asks for it and the start has an instant, and
+    /// what halving still changes.
     pub(super) fn step(
         &mut self,
         from: &State,
         start: Option<f64>,
         end: f64,
-    ) -> Result<Path, Error> {
+    ) -> Result<(Path, Option<Halving>), Error> {
         let whole = self.solve(from, end)?;
-        match (self.history.resolution(), start) {
-            (Some(most), Some(start)) => self.halve(from, [start, end], &whole, most, 0),
-            _ => Ok(Path {
-                ledger: whole.ledger,
-                last: whole,
-                halving: None,
-            }),
-        }
+        let (Some(most), Some(start)) = (self.history.resolution(), start) else {
+            return Ok((Path::of(whole), None));
+        };
+        let path = self.halve(from, [start, end], &whole, most, 0)?;
+        let halving = path.change.as_ref().map(|change| Halving {
+            parts: change.parts,
+            dissipation: change.dissipation,
+            contacts: change.contacts,
+            resolved: path.last.is_certified()
+                && change.is_within(most, work(&path.ledger) + path.last.state.elastic()),
+        });
+        Ok((path, halving))
     }
 
     /// Two halves in place of `whole`, and halves of these while they change too much.
@@ -72,26 +78,19 @@ impl Course<'_> {
         let first = self.solve(from, middle)?;
         if first.is_certified() {
             let second = self.solve(&first.state, end)?;
-            let change = Change::new(&self.setup, whole, [&first, &second], depth);
-            let resolved = second.is_certified() && change.is_within(most);
-            if resolved || depth == DEPTH {
+            let change = Change::new(&self.setup, whole, &first, &second);
+            let ledger = first.ledger.plus(&second.ledger);
+            let share = 0.5_f64.powi(depth);
+            let energy = work(&ledger) + share * second.state.elastic();
+            if second.is_certified() && change.is_within(most, energy) || depth == DEPTH {
                 return Ok(Path {
-                    ledger: first.ledger.plus(&second.ledger),
+                    ledger,
                     last: second,
-                    halving: Some(Halving {
-                        parts: 2,
-                        dissipation: change.dissipation,
-                        contacts: change.contacts,
-                        resolved,
-                    }),
+                    change: Some(change),
                 });
             }
         } else if depth == DEPTH {
-            return Ok(Path {
-                ledger: first.ledger,
-                last: first,
-                halving: None,
-            });
+            return Ok(Path::of(first));
         }
         let early = self.halve(from, [start, middle], &first, most, depth + 1)?;
         if !early.last.is_certified() {
@@ -104,24 +103,33 @@ impl Course<'_> {
 }
 
 impl Path {
+    /// One solve.
+    fn of(last: Reached) -> Self {
+        Self {
+            ledger: last.ledger,
+            last,
+            change: None,
+        }
+    }
+
     fn then(self, late: Self) -> Self {
-        let both = self.halving.zip(late.halving);
+        let both = self.change.zip(late.change);
         Self {
             ledger: self.ledger.plus(&late.ledger),
             last: late.last,
-            halving: both.map(|(a, b)| Halving {
+            change: both.map(|(a, b)| Change {
                 parts: a.parts + b.parts,
                 dissipation: a.dissipation + b.dissipation,
                 contacts: a.contacts.max(b.contacts),
-                resolved: a.resolved && b.resolved,
+                area: a.area.max(b.area),
             }),
         }
     }
 }
 
 impl Change {
-    fn new(setup: &Setup, whole: &Reached, [first, second]: [&Reached; 2], depth: i32) -> Self {
-        let halves = first.ledger.plus(&second.ledger);
+    /// From one solve to two halves.
+    fn new(setup: &Setup, whole: &Reached, first: &Reached, second: &Reached) -> Self {
         let (mut contacts, mut other, mut pressed) = (0, 0.0, 0.0);
         let nodes = setup.condensed.surface().nodes.iter();
         let [a, b] = [whole, second].map(|reached| &reached.outcome.verdict.status);
@@ -134,21 +142,24 @@ impl Change {
                 pressed += node.area;
             }
         }
-        let work: f64 = [halves.loads, halves.supports, halves.obstacles]
-            .map(f64::abs)
-            .iter()
-            .sum();
+        let halves = first.ledger.dissipation + second.ledger.dissipation;
         Self {
-            dissipation: (whole.ledger.dissipation - halves.dissipation).abs(),
+            parts: 2,
+            dissipation: (whole.ledger.dissipation - halves).abs(),
             contacts,
             area: if other > 0.0 { other / pressed } else { 0.0 },
-            energy: work + second.state.elastic() * 0.5_f64.powi(depth),
         }
     }
 
-    fn is_within(&self, most: f64) -> bool {
-        self.dissipation <= most * self.energy && self.area <= most
+    /// Both changes are at most this part of an energy and of the area of contact.
+    fn is_within(&self, most: f64, energy: f64) -> bool {
+        self.dissipation <= most * energy && self.area <= most
     }
+}
+
+/// Work that went in or out, by size, in joule.
+fn work(ledger: &Ledger) -> f64 {
+    ledger.loads.abs() + ledger.supports.abs() + ledger.obstacles.abs()
 }
 
 impl Halving {

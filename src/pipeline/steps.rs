@@ -163,7 +163,7 @@ impl Past {
             None => (0, None),
             Some((steps, at)) => (steps, Some(at)),
         };
-        let path = course.step(&self.state, from, course.history.instants()[steps])?;
+        let (path, halving) = course.step(&self.state, from, course.history.instants()[steps])?;
         let reached = path.last;
         let origins = self.state.origins(&course.setup, &reached.state);
         let step = SolvedStep {
@@ -173,7 +173,7 @@ impl Past {
             origins,
             ledger: path.ledger,
             total: self.total.plus(&path.ledger),
-            halving: path.halving,
+            halving,
             bodies: self.bodies,
             history: led_to(course.history, steps + 1),
             state: reached.state,

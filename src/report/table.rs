@@ -193,6 +193,11 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
             number("elastic_energy", step.total.elastic),
             number("dissipation", step.total.dissipation),
             number("closure", step.total.closure),
+            count("parts", step.halving.map_or(1, |halving| halving.parts)),
+            number(
+                "halving",
+                step.halving.map_or(f64::NAN, |halving| halving.dissipation),
+            ),
         ]);
     }
     row.into_iter()
