@@ -66,8 +66,33 @@ pub fn solve_from(
     check_finite("reaction", reaction)?;
     check_finite("motion", motion)?;
     let mut near = Run::new(problem, settings);
-    near.begin_from(reaction, motion);
+    near.begin_from(reaction, motion, None);
     Ok(run(near))
+}
+
+/// Solves a condensed contact problem from a solved neighbour: the same contacts under a little
+/// more or less load, friction or gap.
+///
+/// The first Newton step takes each contact's state from the neighbour, so that where no contact
+/// changes it no cone program is posed. Of several solutions (high friction) it finds one near
+/// that neighbour.
+///
+/// # Errors
+///
+/// Those of [`solve`], and a neighbour of another length.
+pub fn solve_near(
+    problem: &ContactProblem,
+    settings: &Settings,
+    near: &Outcome,
+) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    let displacement = &near.verdict.displacement;
+    check_length("reaction", problem.unknowns(), near.reaction.len())?;
+    check_length("displacement", problem.unknowns(), displacement.len())?;
+    check_length("motion", problem.free_modes(), near.motion.len())?;
+    let mut run_near = Run::new(problem, settings);
+    run_near.begin_from(&near.reaction, &near.motion, Some(displacement));
+    Ok(run(run_near))
 }
 
 fn check(problem: &ContactProblem, settings: &Settings) -> Result<(), Error> {

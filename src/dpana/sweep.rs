@@ -89,13 +89,19 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Starts from a state that is likely near, with a finish where sweeps need not be run.
-    pub(super) fn begin_from(&mut self, reaction: &[f64], motion: &[f64]) {
+    /// Starts from a state that is likely near, with a finish where sweeps need not be run; its
+    /// first step takes each contact's state from `displacement`, if that is known.
+    pub(super) fn begin_from(
+        &mut self,
+        reaction: &[f64],
+        motion: &[f64],
+        displacement: Option<&[f64]>,
+    ) {
         self.state.reaction = reaction.to_vec();
         self.state.motion = motion.to_vec();
         self.judge();
         if self.settings.variant == Variant::Default {
-            self.newton_finish();
+            self.newton_steps(displacement);
         }
     }
 
@@ -206,6 +212,10 @@ impl<'a> Run<'a> {
 
     /// Newton steps from the iterate, which moves only to a state of smaller residual.
     pub(super) fn newton_finish(&mut self) {
+        self.newton_steps(None);
+    }
+
+    fn newton_steps(&mut self, mut near: Option<&[f64]>) {
         let start = Instant::now();
         let Some(finish) = self.finish.take().or_else(|| Finish::new(self.problem)) else {
             return;
@@ -216,7 +226,8 @@ impl<'a> Run<'a> {
             && idle < NEWTON_STEPS.1
             && self.record.newton_steps < NEWTON_STEPS.0
         {
-            let Some(step) = finish.step(&trial) else {
+            let states = near.take().unwrap_or(&trial.verdict.displacement);
+            let Some(step) = finish.step(&trial, states) else {
                 break;
             };
             self.record.newton_steps += 1;

@@ -95,6 +95,12 @@ impl Account {
         Ok(account)
     }
 
+    /// Elastic energy `½ u · K u` of all bodies, in joule.
+    #[must_use]
+    pub fn elastic(&self) -> f64 {
+        self.elastic
+    }
+
     /// The same bodies without load and displacement.
     #[must_use]
     pub fn at_rest(&self) -> Self {

@@ -38,7 +38,7 @@ pub use motion::Motion;
 pub(crate) use motion::motions;
 pub use plot::plot;
 pub use quality::Quality;
-pub use step::{Ledger, Step};
+pub use step::{Halving, Ledger, Step};
 pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
 pub use totals::{Exchange, PairTotals, Totals};

@@ -190,7 +190,7 @@ impl Study {
             let mut row = vec![
                 ("unknowns".to_owned(), count(mesh.unknowns)),
                 ("contacts".to_owned(), count(mesh.size.contacts)),
-                ("status".to_owned(), Cell::Word(mesh.status.word())),
+                ("status".to_owned(), Cell::Word(mesh.status.word().into())),
                 (
                     "natural_map".to_owned(),
                     number(mesh.certificate.natural_map),
@@ -225,8 +225,8 @@ impl Study {
         for run in &self.runs {
             let (count, number) = (Cell::Count, Cell::Number);
             table.add(vec![
-                ("part".to_owned(), Cell::Word(run.part.word())),
-                ("loop".to_owned(), Cell::Word(run.name)),
+                ("part".to_owned(), Cell::Word(run.part.word().into())),
+                ("loop".to_owned(), Cell::Word(run.name.into())),
                 ("mesh".to_owned(), count(run.mesh)),
                 ("contacts".to_owned(), count(run.contacts)),
                 (
@@ -234,7 +234,7 @@ impl Study {
                     number(run.friction.unwrap_or(f64::NAN)),
                 ),
                 ("tolerance".to_owned(), number(run.tolerance)),
-                ("status".to_owned(), Cell::Word(run.status.word())),
+                ("status".to_owned(), Cell::Word(run.status.word().into())),
                 ("natural_map".to_owned(), number(run.natural_map)),
                 ("energy_gap".to_owned(), number(run.energy_gap)),
                 ("distance".to_owned(), number(run.distance)),

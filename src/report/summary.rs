@@ -132,6 +132,15 @@ fn energy(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(
         text,
         "energy          work {work}, elastic {elastic}, friction {friction}, unexplained {open}"
+    )?;
+    let Some(halving) = step.halving else {
+        return Ok(());
+    };
+    let (parts, contacts) = (halving.parts, halving.contacts);
+    let friction = size(halving.dissipation);
+    writeln!(
+        text,
+        "halving         the step's {parts} parts changes friction by {friction}, {contacts} contacts"
     )
 }
 

@@ -40,8 +40,8 @@ pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
-pub use saved_state::{Exact, SavedState, exact, plain};
-pub use steps::{LoadHistory, SceneSteps};
+pub use saved_state::{Exact, Fingerprint, SavedState, exact, plain};
+pub use steps::{LoadHistory, SceneSteps, driven};
 pub use support::SceneSupport;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
