@@ -17,6 +17,7 @@
 //! Software 35 (2004) 595–600.
 
 mod anderson;
+mod exact;
 mod finish;
 mod float;
 mod gauss_seidel;

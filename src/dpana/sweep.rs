@@ -3,11 +3,12 @@
 use std::time::Instant;
 
 use super::anderson::Anderson;
+use super::exact;
 use super::finish::{Finish, Step};
 use super::gauss_seidel::GaussSeidel;
 use super::iterate::Iterate;
 use super::prediction::Roles;
-use super::{Failure, Mixing, Outcome, Settings, Status, SweepRecord, Sweeps, Variant, Work};
+use super::{Failure, Mixing, Outcome, Settings, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
 use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
@@ -152,6 +153,9 @@ impl<'a> Run<'a> {
             .normal
             .solve(&mut self.state.reaction, roles, tolerance);
         let work = self.count(work);
+        if self.is_exact() {
+            exact::normal(self.problem, &mut self.state.reaction);
+        }
         self.record.normal_iterations = work.iterations;
         self.work.normal_programs += work.programs;
         self.work.seconds.normal += start.elapsed().as_secs_f64();
@@ -188,6 +192,9 @@ impl<'a> Run<'a> {
             .friction
             .solve(&mut self.state.reaction, roles, tolerance);
         let work = self.count(work);
+        if self.is_exact() {
+            exact::friction(self.problem, &mut self.state.reaction);
+        }
         self.record.friction_iterations = work.iterations;
         self.work.friction_programs += work.programs;
         self.work.friction_program_contacts = self.work.friction_program_contacts.max(work.cones);
@@ -298,13 +305,20 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tied to the outer residual; exact study sweeps are as exact as Clarabel can be.
+    /// Tied to the outer residual. A cone program leaves the natural map at about the root of its
+    /// tolerance: without prediction and finish only the square keeps sweeps going.
     pub(super) fn cone_tolerance(&self) -> f64 {
         let (tightest, loosest) = CONE_TOLERANCE;
+        let wanted = INEXACT * self.state.residual();
         match self.settings.variant {
-            Variant::Sweeps(Sweeps { exact: true, .. }) => tightest,
-            _ => (INEXACT * self.state.residual()).clamp(tightest, loosest),
+            Variant::Sweeps(sweeps) if sweeps.exact => tightest,
+            Variant::Sweeps(_) => wanted.powi(2).clamp(tightest, loosest),
+            _ => wanted.clamp(tightest, loosest),
         }
+    }
+
+    fn is_exact(&self) -> bool {
+        matches!(self.settings.variant, Variant::Sweeps(sweeps) if sweeps.exact)
     }
 
     fn normal_reaction(&self) -> Vec<f64> {

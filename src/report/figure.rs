@@ -61,6 +61,9 @@ pub struct Point {
     pub open: bool,
 }
 
+/// Points of a curve that have a mark, the last always, so that long curves stay readable.
+const MARKED: usize = 24;
+
 #[derive(Clone, Copy)]
 enum Mark {
     Disc,
@@ -273,7 +276,9 @@ fn draw_curve(svg: &mut String, number: usize, points: &[Point], scales: &[Scale
             words.collect::<Vec<_>>().join(" ")
         );
     }
-    for (point, place) in points.iter().zip(places) {
+    let every = points.len().div_ceil(MARKED).max(1);
+    let marked = points.iter().zip(places).rev().step_by(every);
+    for (point, place) in marked {
         draw_mark(svg, number, place, point.open);
     }
 }

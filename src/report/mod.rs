@@ -39,7 +39,7 @@ pub(crate) use motion::motions;
 pub use plot::plot;
 pub use quality::Quality;
 pub use step::{Halving, Ledger, Step};
-pub use study::{Exponent, KnownTotal, StageSeconds, StudiedMesh, StudiedRun, Study};
+pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
 pub use totals::{Exchange, PairTotals, Totals};
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};

@@ -89,9 +89,23 @@ pub struct StageSeconds {
     pub estimate: f64,
 }
 
+/// What a run is held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    /// The default and the baseline, mesh by mesh.
+    Meshes,
+    /// All loops on one mesh, tolerance by tolerance.
+    Loops,
+    /// All loops on that mesh, friction by friction.
+    Friction,
+}
+
 /// One loop on one mesh to one tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudiedRun {
+    /// What it is held against.
+    pub part: Part,
     /// Mesh, as an index into the study's meshes.
     pub mesh: usize,
     /// Name of the loop.
@@ -210,6 +224,7 @@ impl Study {
         for run in &self.runs {
             let (count, number) = (Cell::Count, Cell::Number);
             table.add(vec![
+                ("part".to_owned(), Cell::Word(run.part.word().into())),
                 ("loop".to_owned(), Cell::Word(run.name.into())),
                 ("mesh".to_owned(), count(run.mesh)),
                 ("contacts".to_owned(), count(run.contacts)),
@@ -230,6 +245,18 @@ impl Study {
             ]);
         }
         table
+    }
+}
+
+impl Part {
+    /// As JSON and tables spell it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Meshes => "meshes",
+            Self::Loops => "loops",
+            Self::Friction => "friction",
+        }
     }
 }
 
