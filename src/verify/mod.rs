@@ -11,6 +11,7 @@
 //! generated here.
 
 mod growing;
+mod hard;
 mod hertz_line;
 mod hertz_sphere;
 mod incline;
@@ -23,6 +24,8 @@ mod two_blocks;
 mod two_parabolas;
 mod uniform_patch;
 mod wedge;
+
+pub use hard::{Reach, hard_cases};
 
 use std::time::Instant;
 
