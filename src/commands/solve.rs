@@ -49,6 +49,9 @@ pub(crate) struct Solve {
     /// of earlier steps; where there are none they begin with the first step that is solved.
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
+    /// Estimate the error of the stress, which takes one more pass over all cells.
+    #[arg(long)]
+    quality: bool,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -75,7 +78,10 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     });
     drop(progress);
     let solution = solution?;
-    let report = solution.report()?;
+    let mut report = solution.report()?;
+    if arguments.quality {
+        report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
+    }
     if let Some(path) = &arguments.report {
         replace_file(path, &report.to_json())?;
     }

@@ -4,6 +4,7 @@
 //! predict    which contacts are open, pressed, stuck
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
 //! finish     semismooth Newton on the laws, kept only if the judge's residual falls
+//! climb      if that failed twice: Newton again, friction raised from nothing to what it is
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!
@@ -17,6 +18,9 @@
 //! Software 35 (2004) 595–600.
 
 mod anderson;
+mod climb;
+mod condition;
+mod contraction;
 mod exact;
 mod finish;
 mod float;
@@ -25,11 +29,14 @@ mod history;
 mod iterate;
 mod prediction;
 mod settings;
+mod starts;
 mod stiffness;
 mod sweep;
 
-pub use history::{Failure, Outcome, Seconds, Status, SweepRecord, Work};
+pub use contraction::{Contraction, contraction};
+pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use settings::{Mixing, Settings, Sweeps, Variant};
+pub use starts::{OtherStarts, other_starts};
 
 use crate::condensation::ContactProblem;
 use crate::error::{Error, check_finite, check_length};
@@ -133,6 +140,7 @@ fn run(mut run: Run<'_>) -> Outcome {
                 run.friction_half_step();
                 run.judge();
                 run.newton_finish();
+                run.climb_in_friction();
                 run.end_sweep();
             }
         }

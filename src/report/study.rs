@@ -45,7 +45,8 @@ pub struct StudiedMesh {
     /// Oscillation of the pressure, estimated error of the stress.
     pub quality: Quality,
     /// Difference to the displacement on the finest mesh, relative in the energy norm; `null` on
-    /// the finest, and where the nodes of a mesh are no product of lines.
+    /// the finest, where the nodes of a mesh are no product of lines, and where a body is nearly
+    /// incompressible.
     pub error: Option<f64>,
     /// The estimated error over that difference.
     pub effectivity: Option<f64>,

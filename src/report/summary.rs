@@ -114,7 +114,10 @@ fn quality(text: &mut String, report: &Report) -> std::fmt::Result {
 }
 
 fn percent(part: f64) -> String {
-    format!("{} %", number(100.0 * part))
+    match 100.0 * part {
+        percent if percent >= 0.1 => format!("{percent:.1} %"),
+        percent => format!("{percent:.0e} %"),
+    }
 }
 
 /// Where the work of a load history went so far.

@@ -72,7 +72,11 @@ impl Plan {
     }
 
     /// Checks the ranges.
-    pub(super) fn validate(&self) -> Result<(), Error> {
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] naming the field and its range.
+    pub fn validate(&self) -> Result<(), Error> {
         let refuse = |place: &str, value: f64, accepted| Error::OutOfRange {
             place: format!("plan.{place}"),
             value,
