@@ -7,7 +7,7 @@
 //! ```
 
 use super::rigid_bodies::mode_loads;
-use super::{Condensed, Floating};
+use super::Condensed;
 use crate::body::{self, Body};
 use crate::error::{Error, check_finite, check_length};
 
@@ -56,7 +56,7 @@ impl Condensed {
             let groundings: Vec<_> = self.bodies.iter().map(|body| &body.grounding).collect();
             let loads: Vec<_> = self.bodies.iter().map(|body| body.load()).collect();
             let load = mode_loads(&groundings, &loads);
-            let moved = Floating::new(floating.modes().to_owned(), load)?;
+            let moved = floating.under(load)?;
             problem = problem.float(moved)?;
         }
         self.problem = problem;
