@@ -6,8 +6,8 @@
 //! (C14)  u_ref,N = d_N,   u_ref,T = d_T + slip of the last state      d: per contact, zero between bodies
 //! ```
 
-use super::rigid_bodies::mode_loads;
 use super::Condensed;
+use super::rigid_bodies::mode_loads;
 use crate::body::{self, Body};
 use crate::error::{Error, check_finite, check_length};
 

@@ -146,7 +146,11 @@ impl MeshSource {
             Self::File { file, scale } => {
                 let mesh = from_file(place, &folder.join(file), *scale)?;
                 let place = || format!("{place}.file");
-                check_room(place, mesh.nodes.len().to_string(), mesh.nodes.len() <= room)?;
+                check_room(
+                    place,
+                    mesh.nodes.len().to_string(),
+                    mesh.nodes.len() <= room,
+                )?;
                 Ok(mesh)
             }
             Self::Rectangle { rectangle: shape } => {

@@ -32,7 +32,10 @@ pub fn small(scene: &Scene) -> bool {
             MeshSource::Box { solid } => &solid.cells,
             MeshSource::File { .. } | MeshSource::Given(_) => &[],
         };
-        let nodes = cells.iter().map(|&count| count as f64 + 1.0).product::<f64>();
+        let nodes = cells
+            .iter()
+            .map(|&count| count as f64 + 1.0)
+            .product::<f64>();
         // Beyond the program's limit it must be refused at once.
         nodes <= GENERATED as f64 || nodes > 2.1e7
     };

@@ -125,10 +125,7 @@ fn impossible(problem: &ContactProblem, outcome: &Outcome) {
     let (Some(floating), Some(failure)) = (problem.floating(), &outcome.failure) else {
         panic!("no equilibrium, but nothing floats or no motion is shown");
     };
-    let (mut work, mut velocity) = (
-        Sum::default(),
-        vec![Sum::default(); problem.unknowns()],
-    );
+    let (mut work, mut velocity) = (Sum::default(), vec![Sum::default(); problem.unknowns()]);
     for (k, &amplitude) in failure.motion.iter().enumerate() {
         work.add_product(floating.load()[k], amplitude);
         for (i, v) in velocity.iter_mut().enumerate() {
@@ -165,7 +162,11 @@ fn steps(problem: &ContactProblem) -> Vec<[f64; 2]> {
             let tangents = ends[0] + 1..ends[1];
             let mean = tangents.clone().map(diagonal).sum::<f64>() / tangents.len() as f64;
             [diagonal(ends[0]), mean].map(|g| {
-                if g > f64::EPSILON * most { 1.0 / g } else { f64::NAN }
+                if g > f64::EPSILON * most {
+                    1.0 / g
+                } else {
+                    f64::NAN
+                }
             })
         })
         .collect();
@@ -202,7 +203,11 @@ fn load_force(problem: &ContactProblem, steps: &[[f64; 2]]) -> f64 {
         }
     }
     let global = norm(&undone) * (square.value() / answer.value());
-    if global > 0.0 { global.min(norm(&local)) } else { norm(&local) }
+    if global > 0.0 {
+        global.min(norm(&local))
+    } else {
+        norm(&local)
+    }
 }
 
 fn norm(values: &[f64]) -> f64 {

@@ -75,9 +75,14 @@ impl<'a> Arbitrary<'a> for Numbers {
         };
         let size = tangents.iter().sum::<usize>() + contacts;
         let friction = numbers(from, contacts, strange[0])?;
-        let friction = friction.iter().map(|mu| if strange[0] { *mu } else { mu.abs() });
+        let friction = friction
+            .iter()
+            .map(|mu| if strange[0] { *mu } else { mu.abs() });
         let friction = friction.collect();
-        let (gap, free) = (numbers(from, contacts, strange[1])?, numbers(from, size, strange[1])?);
+        let (gap, free) = (
+            numbers(from, contacts, strange[1])?,
+            numbers(from, size, strange[1])?,
+        );
         let compliance = compliance(from, size, strange[2])?;
         let modes = match from.int_in_range(0..=7_u8)? {
             count @ 0..=2 => {
@@ -124,7 +129,11 @@ fn compliance(from: &mut Unstructured<'_>, size: usize, strange: bool) -> Result
     if kind == 6 && rank == size {
         return Ok(factor);
     }
-    let shift = if kind == 1 { 0.0 } else { number(from, strange)?.abs() };
+    let shift = if kind == 1 {
+        0.0
+    } else {
+        number(from, strange)?.abs()
+    };
     let mut product = factor.transpose() * &factor;
     for i in 0..size {
         product[(i, i)] += shift;
@@ -168,7 +177,12 @@ fn lengthened(bytes: &[u8]) -> Vec<u8> {
         state ^= state >> 27;
         (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 56) as u8
     });
-    bytes.iter().copied().chain(drawn).take(MOST_BYTES).collect()
+    bytes
+        .iter()
+        .copied()
+        .chain(drawn)
+        .take(MOST_BYTES)
+        .collect()
 }
 
 fuzz_target!(|bytes: &[u8]| {

@@ -23,13 +23,16 @@ fuzz_target!(|bytes: &[u8]| {
 /// The first group of facets touches a plane or the second, the last group is held.
 fn scene(mesh: Mesh, choice: usize) -> Scene {
     let dimension = mesh.dimension;
-    let of_facets = |(name, group): (&String, &Group)| {
-        matches!(group, Group::Facets(_)).then(|| name.clone())
-    };
+    let of_facets =
+        |(name, group): (&String, &Group)| matches!(group, Group::Facets(_)).then(|| name.clone());
     let facets: Vec<String> = mesh.groups.iter().filter_map(of_facets).collect();
     let any = |group: Option<&String>| group.cloned().unwrap_or_default();
     let axes = |values: [f64; 3]| values[..dimension].to_vec();
-    let up = if dimension == 2 { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+    let up = if dimension == 2 {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
     let against = choice % 3 == 0;
     let hold = SceneSupport::Group {
         group: any(mesh.groups.keys().last()),
