@@ -154,6 +154,29 @@ fn a_halved_history_is_taken_on_bit_for_bit() {
 }
 
 #[test]
+fn a_history_that_ends_between_two_instants_ends_where_nothing_holds_the_body() {
+    // 2 N press, μ = 0.5, and 0.9 N · 1.5 t push: it slides off at t = 1 / 1.35.
+    let pad = json!({
+        "bodies": [{
+            "mesh": {"rectangle": {"x": [0, 2], "y": [0, 0.5], "cells": [8, 2]}},
+            "model": "plane_strain",
+            "materials": [{"young": 1000, "poisson": 0}],
+            "loads": [{"pressure": 1, "group": "top"}, {"traction": [0.45, 0], "group": "bottom"}]
+        }],
+        "contacts": [{"group": "bottom", "friction": 0.5,
+            "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}}}],
+        "steps": {"at": [0.5, 1, 2], "resolve": 1e-3,
+            "factors": {"bodies[0].loads[1]": [[0, 0], [1, 1.5], [2, 0]]}}
+    });
+    let pad = Scene::from_json(&pad.to_string(), "").unwrap();
+    let last = solve_steps(&pad, None, |_| Ok(())).unwrap();
+    assert_eq!(last.status(), Status::NoEquilibrium);
+    let at = last.step().unwrap().at();
+    let (limit, part) = (1.0 / 1.35, 0.5 / 128.0);
+    assert!(limit < at && at < limit + part, "{at} {limit}");
+}
+
+#[test]
 fn a_resolution_that_makes_no_sense_is_refused() {
     for resolve in [0.0, -1.0, 2.0] {
         let refused = rocked(1, Some(resolve))

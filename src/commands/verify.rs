@@ -1,4 +1,4 @@
-//! `dpana verify`: the gallery of known answers.
+//! `dpana verify`: the gallery of known answers, and the hard cases.
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -7,6 +7,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::report::replace_file;
+use dpana::verify::{Reach, hard_cases};
 
 use super::outputs::check_writable;
 
@@ -15,6 +16,12 @@ pub(crate) struct Verify {
     /// Leave out the finest meshes.
     #[arg(long)]
     quick: bool,
+    /// Solve the hard cases instead: scenes that were built to break the method.
+    #[arg(long, conflicts_with = "largest")]
+    hard: bool,
+    /// Solve only those with the most contacts: minutes, and gigabytes of memory.
+    #[arg(long, conflicts_with = "quick")]
+    largest: bool,
     /// Write every number to this file, in JSON.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -24,13 +31,40 @@ pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     if let Some(output) = &arguments.report {
         check_writable("--report", output)?;
     }
+    if arguments.hard || arguments.largest {
+        return hard(arguments);
+    }
     let verification = dpana::verify(arguments.quick)?;
     if let Some(path) = &arguments.report {
         replace_file(path, &verification.to_json())?;
     }
     writeln!(io::stdout(), "{}", verification.summary().trim_end())?;
-    Ok(match verification.passed {
+    Ok(ended(verification.passed))
+}
+
+fn hard(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
+    let reach = match (arguments.largest, arguments.quick) {
+        (true, _) => Reach::Largest,
+        (false, true) => Reach::Coarse,
+        (false, false) => Reach::All,
+    };
+    let mut told = Ok(());
+    let solved = hard_cases(reach, |row| {
+        if told.is_ok() {
+            told = writeln!(io::stdout(), "{row}");
+        }
+    })?;
+    told?;
+    if let Some(path) = &arguments.report {
+        replace_file(path, &solved.to_json())?;
+    }
+    writeln!(io::stdout(), "{}", solved.summary().trim_end())?;
+    Ok(ended(solved.passed))
+}
+
+fn ended(passed: bool) -> ExitCode {
+    match passed {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(1),
-    })
+    }
 }

@@ -179,7 +179,7 @@ fn join(
             for (interface, operator) in interfaces.iter().zip(first.into_iter().chain(operators)) {
                 interface.add_compliance(operator.compliance(), &mut compliance);
             }
-            Operator::from_compliance(compliance)?
+            Operator::from_bodies(compliance)?
         }
     };
     let friction = surface

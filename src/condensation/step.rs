@@ -7,7 +7,7 @@
 //! ```
 
 use super::rigid_bodies::mode_loads;
-use super::{Condensed, CondensedBody, Floating, Superposition};
+use super::{Condensed, CondensedBody, Superposition};
 use crate::error::{Error, check_length};
 
 impl Condensed {
@@ -46,7 +46,7 @@ impl Condensed {
             let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
             let loads: Vec<_> = actions.iter().map(|action| &action.load).collect();
             let load = mode_loads(&groundings, &loads);
-            let moved = Floating::new(floating.modes().to_owned(), load)?;
+            let moved = floating.under(load)?;
             problem = problem.float(moved)?;
         }
         for (body, action) in self.bodies.iter_mut().zip(actions) {

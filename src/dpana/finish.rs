@@ -20,7 +20,7 @@ use std::ops::Range;
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::{Accum, Col, ColMut, ColRef, Mat, get_global_parallelism};
+use faer::{Accum, Col, ColMut, ColRef, Mat, Par};
 use nalgebra::Matrix3;
 
 use super::iterate::Iterate;
@@ -213,7 +213,7 @@ impl<'a> Finish<'a> {
             self.stiffness.matrix.as_ref(),
             ColRef::from_slice(change),
             1.0,
-            get_global_parallelism(),
+            Par::Seq,
         );
         next
     }

@@ -10,8 +10,8 @@ use std::time::Instant;
 
 use faer::Mat;
 
-use super::Failure;
 use super::sweep::Run;
+use super::{Failure, Shortfall};
 use crate::condensation::Floating;
 use crate::cone::{CoulombProgram, Equilibrium, RigidContacts};
 use crate::kkt;
@@ -38,7 +38,6 @@ impl Run<'_> {
                 contacts.admissible(floating.load())
         {
             self.failure = self.believe(&contacts, floating, motion, excess);
-            self.failed |= self.failure.is_some();
         }
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
@@ -67,7 +66,7 @@ impl Run<'_> {
                 self.state.reaction = solution.reaction;
                 self.state.motion = solution.motion;
             }
-            None => self.failed = true,
+            None => self.shortfall = Some(Shortfall::ConeSolver),
         }
         self.coulomb = program;
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();

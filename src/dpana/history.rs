@@ -5,8 +5,13 @@ use crate::kkt::{Impossibility, Verdict};
 /// A solved contact problem.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// Certified, or why not.
+    /// Certified, or not.
     pub status: Status,
+    /// Why the solve ended without a certificate, with [`Status::NotConverged`].
+    pub shortfall: Option<Shortfall>,
+    /// Condition of the compliance, each unknown in units of its own diagonal entry: an estimate from
+    /// below; infinite where forces cannot be told apart; none where no stiffness was needed.
+    pub condition: Option<f64>,
     /// Reaction per unknown, in newton.
     pub reaction: Vec<f64>,
     /// Rigid motion α in metre, per free mode of bodies that float; else empty.
@@ -43,10 +48,31 @@ pub struct Failure {
 pub enum Status {
     /// The judge's residual is at most the tolerance.
     Certified,
-    /// The best state found is returned with its residuals; it is not certified.
+    /// The best state found is returned with its residuals; it is not certified: see
+    /// [`Outcome::shortfall`].
     NotConverged,
     /// No admissible contact forces hold the bodies: see [`Outcome::failure`].
     NoEquilibrium,
+}
+
+/// Why a solve ended without a certificate; the best state found is returned all the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shortfall {
+    /// The sweeps that the settings allow ran out.
+    SweepLimit,
+    /// So many sweeps, one after the other, led to no better state.
+    Stalled {
+        /// Their number.
+        sweeps: usize,
+    },
+    /// The cone solver gave up on a half-step's program.
+    ConeSolver,
+    /// The residual is what the rounding of the reaction itself may leave: the tolerance asks for
+    /// more digits than the problem has.
+    RoundOff {
+        /// Smallest residual that can be asked for, about.
+        floor: f64,
+    },
 }
 
 /// One sweep.
@@ -87,6 +113,8 @@ pub struct Work {
     pub friction_program_contacts: usize,
     /// Newton steps.
     pub newton_steps: usize,
+    /// Coefficients of friction that were passed through on the way up to the problem's own (D6).
+    pub friction_parts: usize,
     /// Seconds of prediction, half-steps, finish, judge.
     pub seconds: Seconds,
 }

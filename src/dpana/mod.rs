@@ -4,6 +4,7 @@
 //! predict    which contacts are open, pressed, stuck
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
 //! finish     semismooth Newton on the laws, kept only if the judge's residual falls
+//! climb      if that failed twice: Newton again, friction raised from nothing to what it is
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!
@@ -11,12 +12,16 @@
 //! half-steps, with their equilibrium as rows (H8).
 //!
 //! A load step starts from the last state instead: its reaction tells which contacts are open,
-//! pressed, stuck, and a finish is tried before any sweep.
+//! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
+//! step on what each contact does there.
 //!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
 
 mod anderson;
+mod climb;
+mod condition;
+mod contraction;
 mod exact;
 mod finish;
 mod float;
@@ -25,11 +30,14 @@ mod history;
 mod iterate;
 mod prediction;
 mod settings;
+mod starts;
 mod stiffness;
 mod sweep;
 
-pub use history::{Failure, Outcome, Seconds, Status, SweepRecord, Work};
+pub use contraction::{Contraction, contraction};
+pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use settings::{Mixing, Settings, Sweeps, Variant};
+pub use starts::{OtherStarts, other_starts};
 
 use crate::condensation::ContactProblem;
 use crate::error::{Error, check_finite, check_length};
@@ -60,14 +68,7 @@ pub fn solve_from(
     reaction: &[f64],
     motion: &[f64],
 ) -> Result<Outcome, Error> {
-    check(problem, settings)?;
-    check_length("reaction", problem.unknowns(), reaction.len())?;
-    check_length("motion", problem.free_modes(), motion.len())?;
-    check_finite("reaction", reaction)?;
-    check_finite("motion", motion)?;
-    let mut near = Run::new(problem, settings);
-    near.begin_from(reaction, motion, None);
-    Ok(run(near))
+    run_from(problem, settings, reaction, motion, None)
 }
 
 /// Solves a condensed contact problem from a solved neighbour: the same contacts under a little
@@ -79,20 +80,39 @@ pub fn solve_from(
 ///
 /// # Errors
 ///
-/// Those of [`solve`], and a neighbour of another length.
+/// Those of [`solve`], and a neighbour that is not of the problem's length or not finite.
 pub fn solve_near(
     problem: &ContactProblem,
     settings: &Settings,
     near: &Outcome,
 ) -> Result<Outcome, Error> {
-    check(problem, settings)?;
     let displacement = &near.verdict.displacement;
-    check_length("reaction", problem.unknowns(), near.reaction.len())?;
     check_length("displacement", problem.unknowns(), displacement.len())?;
-    check_length("motion", problem.free_modes(), near.motion.len())?;
-    let mut run_near = Run::new(problem, settings);
-    run_near.begin_from(&near.reaction, &near.motion, Some(displacement));
-    Ok(run(run_near))
+    check_finite("displacement", displacement)?;
+    run_from(
+        problem,
+        settings,
+        &near.reaction,
+        &near.motion,
+        Some(displacement),
+    )
+}
+
+fn run_from(
+    problem: &ContactProblem,
+    settings: &Settings,
+    reaction: &[f64],
+    motion: &[f64],
+    displacement: Option<&[f64]>,
+) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    check_length("motion", problem.free_modes(), motion.len())?;
+    check_finite("reaction", reaction)?;
+    check_finite("motion", motion)?;
+    let mut near = Run::new(problem, settings);
+    near.begin_from(reaction, motion, displacement);
+    Ok(run(near))
 }
 
 fn check(problem: &ContactProblem, settings: &Settings) -> Result<(), Error> {
@@ -133,6 +153,7 @@ fn run(mut run: Run<'_>) -> Outcome {
                 run.friction_half_step();
                 run.judge();
                 run.newton_finish();
+                run.climb_in_friction();
                 run.end_sweep();
             }
         }

@@ -3,12 +3,13 @@
 use std::time::Instant;
 
 use super::anderson::Anderson;
+use super::condition::condition;
 use super::exact;
 use super::finish::{Finish, Step};
 use super::gauss_seidel::GaussSeidel;
 use super::iterate::Iterate;
 use super::prediction::Roles;
-use super::{Failure, Mixing, Outcome, Settings, Status, SweepRecord, Variant, Work};
+use super::{Failure, Mixing, Outcome, Settings, Shortfall, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
 use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
@@ -28,12 +29,20 @@ const CONE_TOLERANCE: (f64, f64) = (1e-12, 1e-2);
 /// Newton steps after a sweep at most, and how many may pass without a better state.
 const NEWTON_STEPS: (usize, usize) = (12, 3);
 
+/// Sweeps without a better state after which the solve gives up.
+const PATIENCE: usize = 30;
+
+/// A residual below this many times what round-off may leave, and not improved by so many sweeps,
+/// is round-off.
+const ROUNDED: f64 = 4.0;
+const UNIMPROVED: usize = 2;
+
 /// A solve in progress.
 pub(super) struct Run<'a> {
     pub(super) problem: &'a ContactProblem,
     settings: &'a Settings,
     judge: Judge<'a>,
-    normal: NormalHalfStep<'a>,
+    pub(super) normal: NormalHalfStep<'a>,
     friction: FrictionHalfStep<'a>,
     gauss_seidel: GaussSeidel<'a>,
     /// Shift of the last program over all Coulomb cones, in metre per contact.
@@ -46,13 +55,15 @@ pub(super) struct Run<'a> {
     pub(super) state: Iterate,
     /// The state of least residual so far.
     best: Iterate,
+    /// Sweep that found it.
+    found: usize,
     /// Normal reaction at the start of the sweep.
     before: Vec<f64>,
     pub(super) record: SweepRecord,
     sweep_start: Instant,
     history: Vec<SweepRecord>,
     pub(super) work: Work,
-    pub(super) failed: bool,
+    pub(super) shortfall: Option<Shortfall>,
     pub(super) failure: Option<Failure>,
 }
 
@@ -78,13 +89,14 @@ impl<'a> Run<'a> {
             coulomb: None,
             finish: None,
             best: state.clone(),
+            found: 0,
             state,
             before: Vec::new(),
             record: SweepRecord::default(),
             sweep_start: Instant::now(),
             history: Vec::new(),
             work: Work::default(),
-            failed: false,
+            shortfall: None,
             failure: None,
         }
     }
@@ -115,7 +127,8 @@ impl<'a> Run<'a> {
     }
 
     pub(super) fn goes_on(&self) -> bool {
-        !self.is_solved() && !self.failed && self.work.sweeps < self.settings.max_sweeps
+        let ended = self.failure.is_some() || self.shortfall.is_some();
+        !self.is_solved() && !ended && self.work.sweeps < self.settings.max_sweeps
     }
 
     /// A few Gauss–Seidel passes tell which contacts need a cone.
@@ -204,10 +217,16 @@ impl<'a> Run<'a> {
     pub(super) fn judge(&mut self) {
         let start = Instant::now();
         self.state.measure(&self.judge);
-        if self.state.residual() < self.best.residual() {
-            self.best = self.state.clone();
-        }
+        self.keep(&self.state.clone());
         self.work.seconds.judge += start.elapsed().as_secs_f64();
+    }
+
+    /// Takes a state that is better than all before.
+    fn keep(&mut self, state: &Iterate) {
+        if state.residual() < self.best.residual() {
+            self.best = state.clone();
+            self.found = self.work.sweeps;
+        }
     }
 
     /// Newton steps from the iterate, which moves only to a state of smaller residual.
@@ -222,10 +241,10 @@ impl<'a> Run<'a> {
         };
         let mut trial = self.state.clone();
         let mut idle = 0;
-        while !self.is_solved()
-            && idle < NEWTON_STEPS.1
-            && self.record.newton_steps < NEWTON_STEPS.0
-        {
+        for _ in 0..NEWTON_STEPS.0 {
+            if self.is_solved() || idle == NEWTON_STEPS.1 {
+                break;
+            }
             let states = near.take().unwrap_or(&trial.verdict.displacement);
             let Some(step) = finish.step(&trial, states) else {
                 break;
@@ -238,9 +257,7 @@ impl<'a> Run<'a> {
                 self.state = trial.clone();
                 idle = 0;
             }
-            if trial.residual() < self.best.residual() {
-                self.best = trial.clone();
-            }
+            self.keep(&trial);
         }
         self.finish = Some(finish);
         self.work.seconds.finish += start.elapsed().as_secs_f64();
@@ -284,6 +301,22 @@ impl<'a> Run<'a> {
         self.record.open_stick_slip = counts;
         self.record.seconds = self.sweep_start.elapsed().as_secs_f64();
         self.history.push(self.record);
+        if self.shortfall.is_none() && !self.is_solved() {
+            self.shortfall = self.hopeless();
+        }
+    }
+
+    /// Why more sweeps would not help, if so; sweeps for study go on.
+    fn hopeless(&self) -> Option<Shortfall> {
+        let sweeps = self.work.sweeps - self.found;
+        if self.settings.variant != Variant::Default || sweeps < UNIMPROVED {
+            return None;
+        }
+        let floor = self.judge.round_off(&self.best.reaction);
+        if self.best.residual() <= ROUNDED * floor {
+            return Some(Shortfall::RoundOff { floor });
+        }
+        (sweeps >= PATIENCE).then_some(Shortfall::Stalled { sweeps })
     }
 
     pub(super) fn into_outcome(self) -> Outcome {
@@ -294,8 +327,12 @@ impl<'a> Run<'a> {
         } else {
             Status::NotConverged
         };
+        let swept = Shortfall::SweepLimit;
+        let condition = self.finish.as_ref().and_then(|_| condition(self.problem));
         Outcome {
             status,
+            shortfall: (status == Status::NotConverged).then(|| self.shortfall.unwrap_or(swept)),
+            condition,
             reaction: self.best.reaction,
             motion: self.best.motion,
             failure: self.failure,
@@ -326,9 +363,11 @@ impl<'a> Run<'a> {
         normals.iter().map(|&n| self.state.reaction[n]).collect()
     }
 
-    /// Books a half-step; one that the cone solver gave up ends the run.
+    /// Books a half-step; one that the cone solver gave up is the last.
     fn count(&mut self, work: Option<HalfStepWork>) -> HalfStepWork {
-        self.failed |= work.is_none();
+        if work.is_none() {
+            self.shortfall = Some(Shortfall::ConeSolver);
+        }
         let work = work.unwrap_or_default();
         self.work.cone_iterations += work.iterations;
         work

@@ -3,13 +3,17 @@
 use super::bipotential::bipotential_gap;
 use super::certificate::{Certificate, ContactStatus, Verdict, Worst, ratio};
 use super::coulomb::coulomb_residual;
+use super::depth::deep_displacement;
 use super::floating::unanswered;
 use super::natural_map::{largest, largest_block, norm};
 use super::resultant::Defect;
-use super::scales::{Scales, compliance_product, dot};
+use super::scales::{Scales, compliance_product, dot, local_force};
 use super::signorini::signorini_residual;
 use super::state::{ContactState, contact_states};
 use crate::condensation::ContactProblem;
+
+/// A residual below this needs no more digits than plain sums have.
+const SEEN: f64 = 1e-13;
 
 /// The judge of one problem; scales are computed once.
 #[derive(Clone, Debug)]
@@ -37,7 +41,8 @@ impl<'a> Judge<'a> {
 
     /// Measures every law for a reaction and a rigid motion, in metre per free mode (C3).
     ///
-    /// What [`measure`](Self::measure) says of a reaction holds for the motion as well.
+    /// What [`measure`](Self::measure) says of a reaction holds for the motion as well. Where plain
+    /// sums leave no more than their own rounding, displacements are summed in twice the digits.
     #[must_use]
     pub fn measure_floating(&self, reaction: &[f64], motion: &[f64]) -> Verdict {
         let fits =
@@ -46,8 +51,48 @@ impl<'a> Judge<'a> {
             return self.no_state();
         }
         let response = compliance_product(self.problem.compliance(), reaction);
+        let plain = self.verdict(
+            reaction,
+            &response,
+            self.plain_displacement(&response, motion),
+        );
+        let measured = plain.certificate.natural_map;
+        if measured <= SEEN || measured > self.rounding(reaction) {
+            return plain;
+        }
+        let deep = deep_displacement(self.problem, reaction, motion);
+        self.verdict(reaction, &response, deep)
+    }
+
+    /// What the rounding of every `t` alone may leave of the natural map: no reaction of double
+    /// precision has a residual that is surely smaller.
+    #[must_use]
+    pub fn round_off(&self, reaction: &[f64]) -> f64 {
+        let mut moved = vec![0.0; reaction.len()];
+        let columns = self.problem.compliance().col_iter().zip(reaction);
+        for (column, t) in columns.filter(|(_, t)| **t != 0.0) {
+            for (moved, entry) in moved.iter_mut().zip(column.iter()) {
+                *moved += (entry * t).abs();
+            }
+        }
+        let forces = local_force(self.problem.offsets(), &moved, &self.scales.steps);
+        0.5 * f64::EPSILON * ratio(norm(&forces), self.size(reaction))
+    }
+
+    /// What plain sums may leave of the natural map by rounding.
+    fn rounding(&self, reaction: &[f64]) -> f64 {
+        let terms = self.problem.unknowns() as f64;
+        terms * f64::EPSILON * ratio(self.scales.terms, self.size(reaction))
+    }
+
+    /// What residuals in newton are relative to.
+    fn size(&self, reaction: &[f64]) -> f64 {
+        norm(reaction).max(self.scales.force_norm)
+    }
+
+    fn plain_displacement(&self, response: &[f64], motion: &[f64]) -> Vec<f64> {
         let free = self.problem.free_displacement();
-        let mut displacement: Vec<f64> = free.iter().zip(&response).map(|(a, b)| a + b).collect();
+        let mut displacement: Vec<f64> = free.iter().zip(response).map(|(a, b)| a + b).collect();
         if let Some(floating) = self.problem.floating() {
             for (mode, amplitude) in floating.modes().col_iter().zip(motion) {
                 for (u, r) in displacement.iter_mut().zip(mode.iter()) {
@@ -55,6 +100,10 @@ impl<'a> Judge<'a> {
                 }
             }
         }
+        displacement
+    }
+
+    fn verdict(&self, reaction: &[f64], response: &[f64], displacement: Vec<f64>) -> Verdict {
         let states = contact_states(self.problem, reaction, &displacement);
         let steps = self.scales.steps.iter();
         Verdict {
@@ -62,7 +111,7 @@ impl<'a> Judge<'a> {
                 .zip(&states)
                 .map(|(step, state)| step.status(state))
                 .collect(),
-            certificate: self.certificate(reaction, &response, &states),
+            certificate: self.certificate(reaction, response, &states),
             displacement,
         }
     }
@@ -84,7 +133,8 @@ impl<'a> Judge<'a> {
                 .problem
                 .floating()
                 .map_or_else(Defect::default, |floating| {
-                    unanswered(floating.modes(), floating.load(), reaction)
+                    let (modes, load) = (floating.modes(), floating.load());
+                    unanswered(modes, load, floating.sizes(), reaction)
                 }),
             penetration: signorini.penetration.over(length),
             tension: signorini.tension.over(force),
@@ -102,7 +152,7 @@ impl<'a> Judge<'a> {
         let residual: Vec<f64> = steps
             .flat_map(|(step, state)| step.residual(state))
             .collect();
-        ratio(norm(&residual), norm(reaction).max(self.scales.force_norm))
+        ratio(norm(&residual), self.size(reaction))
     }
 
     fn no_state(&self) -> Verdict {

@@ -28,6 +28,7 @@ mod bipotential;
 mod body_state;
 mod certificate;
 mod coulomb;
+mod depth;
 mod exchange;
 mod floating;
 mod held;

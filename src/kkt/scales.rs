@@ -12,7 +12,7 @@
 //! far from the obstacle do not make the load any larger.
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, get_global_parallelism};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::natural_map::{Step, largest, largest_block, norm};
 use crate::condensation::ContactProblem;
@@ -32,14 +32,18 @@ pub(super) struct Scales {
     pub(super) force: f64,
     /// Largest `‖w_i‖` of a contact, in metre.
     pub(super) length: f64,
+    /// `‖ρ w‖₂`, in newton: what the terms of `u` are worth in (K1), however they cancel.
+    pub(super) terms: f64,
 }
 
 impl Scales {
     pub(super) fn new(problem: &ContactProblem) -> Self {
         let steps = steps(problem);
         let undone = undone_displacement(problem);
-        let load = load_force(problem, &undone, &steps);
+        let local = local_force(problem.offsets(), &undone, &steps);
+        let load = load_force(problem, &undone, &local);
         Self {
+            terms: norm(&local),
             steps,
             force_norm: FLOOR * norm(&load),
             force: FLOOR * largest_block(problem.offsets(), &load),
@@ -48,7 +52,7 @@ impl Scales {
     }
 }
 
-/// `G t`, in metre: one pass over G.
+/// `G t`, in metre: one pass over G, on one thread, as several would add up in their own order.
 pub(super) fn compliance_product(compliance: &Mat<f64>, reaction: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; reaction.len()];
     matmul(
@@ -57,7 +61,7 @@ pub(super) fn compliance_product(compliance: &Mat<f64>, reaction: &[f64]) -> Vec
         compliance,
         MatRef::from_column_major_slice(reaction, reaction.len(), 1),
         1.0,
-        get_global_parallelism(),
+        Par::Seq,
     );
     product
 }
@@ -99,9 +103,21 @@ fn undone_displacement(problem: &ContactProblem) -> Vec<f64> {
     undone
 }
 
-/// `f` of (K2), in newton; at most what the local stiffnesses alone would make of `w`,
-/// because a `w` that G hardly answers to (singular G) has no bounded multiple.
-fn load_force(problem: &ContactProblem, undone: &[f64], steps: &[Step]) -> Vec<f64> {
+/// What the local stiffnesses alone would make of `w`, in newton.
+pub(super) fn local_force(offsets: &[usize], undone: &[f64], steps: &[Step]) -> Vec<f64> {
+    let mut local = undone.to_vec();
+    for (ends, step) in offsets.windows(2).zip(steps) {
+        local[ends[0]] *= step.normal;
+        local[ends[0] + 1..ends[1]]
+            .iter_mut()
+            .for_each(|w| *w *= step.tangential);
+    }
+    local
+}
+
+/// `f` of (K2), in newton; at most the local force of `w`, because a `w` that G hardly answers to
+/// (singular G) has no bounded multiple.
+fn load_force(problem: &ContactProblem, undone: &[f64], local: &[f64]) -> Vec<f64> {
     let length = largest(undone);
     if length == 0.0 {
         return vec![0.0; undone.len()];
@@ -109,19 +125,11 @@ fn load_force(problem: &ContactProblem, undone: &[f64], steps: &[Step]) -> Vec<f
     let unit: Vec<f64> = undone.iter().map(|w| w / length).collect();
     let answer = compliance_product(problem.compliance(), &unit);
     let stiffness = dot(&unit, &unit) / dot(&unit, &answer);
-
-    let mut local = undone.to_vec();
-    for (ends, step) in problem.offsets().windows(2).zip(steps) {
-        local[ends[0]] *= step.normal;
-        local[ends[0] + 1..ends[1]]
-            .iter_mut()
-            .for_each(|w| *w *= step.tangential);
-    }
     let global: Vec<f64> = undone.iter().map(|w| stiffness * w).collect();
-    if stiffness > 0.0 && norm(&global) < norm(&local) {
+    if stiffness > 0.0 && norm(&global) < norm(local) {
         global
     } else {
-        local
+        local.to_vec()
     }
 }
 

@@ -9,6 +9,10 @@ use crate::report;
 /// A step is halved this often at most: into 2⁷ parts.
 const DEPTH: i32 = 6;
 
+/// A step is not resolved to less than what matters beside this part of the elastic energy: one
+/// that holds what was there does no work.
+const FLOOR: f64 = 1e-3;
+
 /// The way from one instant of a load history to the next.
 pub(super) struct Path {
     pub(super) last: Reached,
@@ -27,7 +31,7 @@ pub struct Halving {
     pub dissipation: f64,
     /// Most contacts that any part ends with in another state.
     pub contacts: usize,
-    /// Both are below what the scene asks for.
+    /// Both, and what the parts leave unexplained (K10), are below what the scene asks for.
     pub resolved: bool,
 }
 
@@ -39,6 +43,8 @@ struct Change {
     contacts: usize,
     /// Area of these contacts beside the area of contact.
     area: f64,
+    /// What the halves leave unexplained by themselves (K10), in joule.
+    closure: f64,
 }
 
 impl Course<'_> {
@@ -60,7 +66,7 @@ impl Course<'_> {
             dissipation: change.dissipation,
             contacts: change.contacts,
             resolved: path.last.is_certified()
-                && change.is_within(most, work(&path.ledger) + path.last.state.elastic()),
+                && change.is_within(most, energy(&path.ledger, path.last.state.elastic())),
         });
         Ok((path, halving))
     }
@@ -80,9 +86,9 @@ impl Course<'_> {
             let second = self.solve(&first.state, end)?;
             let change = Change::new(&self.setup, whole, &first, &second);
             let ledger = first.ledger.plus(&second.ledger);
-            let share = 0.5_f64.powi(depth);
-            let energy = work(&ledger) + share * second.state.elastic();
-            if second.is_certified() && change.is_within(most, energy) || depth == DEPTH {
+            let energy = energy(&ledger, second.state.elastic() * 0.5_f64.powi(depth));
+            let resolved = second.is_certified() && change.is_within(most, energy);
+            if resolved || depth == DEPTH {
                 return Ok(Path {
                     ledger,
                     last: second,
@@ -122,6 +128,7 @@ impl Path {
                 dissipation: a.dissipation + b.dissipation,
                 contacts: a.contacts.max(b.contacts),
                 area: a.area.max(b.area),
+                closure: a.closure + b.closure,
             }),
         }
     }
@@ -142,24 +149,26 @@ impl Change {
                 pressed += node.area;
             }
         }
-        let halves = first.ledger.dissipation + second.ledger.dissipation;
+        let [a, b] = [first.ledger, second.ledger];
         Self {
             parts: 2,
-            dissipation: (whole.ledger.dissipation - halves).abs(),
+            dissipation: (whole.ledger.dissipation - a.dissipation - b.dissipation).abs(),
             contacts,
             area: if other > 0.0 { other / pressed } else { 0.0 },
+            closure: a.closure.abs() + b.closure.abs(),
         }
     }
 
-    /// Both changes are at most this part of an energy and of the area of contact.
+    /// Energies are at most this part of an energy, areas of the area of contact.
     fn is_within(&self, most: f64, energy: f64) -> bool {
-        self.dissipation <= most * energy && self.area <= most
+        self.dissipation.max(self.closure) <= most * energy && self.area <= most
     }
 }
 
-/// Work that went in or out, by size, in joule.
-fn work(ledger: &Ledger) -> f64 {
-    ledger.loads.abs() + ledger.supports.abs() + ledger.obstacles.abs()
+/// Work that went in or out, by size, with a floor from the elastic energy, in joule.
+fn energy(ledger: &Ledger, elastic: f64) -> f64 {
+    let work = ledger.loads.abs() + ledger.supports.abs() + ledger.obstacles.abs();
+    work + FLOOR * elastic
 }
 
 impl Halving {

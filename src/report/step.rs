@@ -31,7 +31,7 @@ pub struct Halving {
     pub dissipation: f64,
     /// Most contacts that any part ends with in another state.
     pub contacts: usize,
-    /// Both are below what the scene asks for.
+    /// Both, and what the parts leave unexplained, are below what the scene asks for.
     pub resolved: bool,
 }
 

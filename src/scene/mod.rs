@@ -45,6 +45,8 @@ pub use saved_state::{Exact, Fingerprint, SavedState, exact, plain};
 pub use steps::{LoadHistory, SceneSteps, driven};
 pub use support::SceneSupport;
 
+use mesh_source::MOST_NODES;
+
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "a scene")]
@@ -160,10 +162,12 @@ impl Scene {
             });
         }
         let folder = self.source.parent().unwrap_or(Path::new(""));
-        let bodies = self.bodies.iter().enumerate();
-        let bodies: Vec<Body> = bodies
-            .map(|(at, body)| body.resolve(&format!("bodies[{at}]"), folder))
-            .collect::<Result<_, _>>()?;
+        let (mut bodies, mut room) = (Vec::with_capacity(self.bodies.len()), MOST_NODES);
+        for (at, body) in self.bodies.iter().enumerate() {
+            let body = body.resolve(&format!("bodies[{at}]"), folder, room)?;
+            room = room.saturating_sub(body.mesh.nodes.len());
+            bodies.push(body);
+        }
         check_together(&bodies)?;
         let contacts = self.contacts.iter().enumerate();
         let contacts = contacts

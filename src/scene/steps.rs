@@ -31,14 +31,16 @@ pub struct SceneSteps {
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or
     /// `[instant, x, y, z]`, in metre, rising, under the place of its contact, such as
-    /// `contacts[0]`. Normals stay those of the obstacle where the scene puts it: right for
-    /// motions small beside its radius, as all displacements are taken to be small.
+    /// `contacts[0]`. Normals stay those of the obstacle where the scene puts it: gaps follow a
+    /// motion `d` along them, as they follow all displacements, which leaves out `d² / 2R` of a
+    /// motion across the normals of an obstacle of radius R.
     #[serde(default)]
     pub obstacles: BTreeMap<String, Vec<Vec<f64>>>,
     /// Left out, every step is solved once. Given, also in halves, and in halves of these, until
-    /// halving changes neither dissipated energy (beside work and elastic energy) nor the state of
-    /// contacts (beside the area of contact) by more than this part. The first step is not halved:
-    /// nothing is stated of the way to it.
+    /// the ledger leaves at most this part of the work unexplained, and halving changes the
+    /// dissipated energy by at most this part of the work, and the state of contacts on at most this
+    /// part of the area of contact; or until there are 128 parts, with a note. The first step is
+    /// not halved: nothing is stated of the way to it.
     #[schemars(range(min = 1e-12, max = 1))]
     pub resolve: Option<f64>,
 }

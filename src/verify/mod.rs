@@ -14,6 +14,7 @@ mod cattaneo_mindlin;
 mod flat_punch;
 mod goodman;
 mod growing;
+mod hard;
 mod hertz_line;
 mod hertz_sphere;
 mod incline;
@@ -26,6 +27,8 @@ mod two_blocks;
 mod two_parabolas;
 mod uniform_patch;
 mod wedge;
+
+pub use hard::{Reach, hard_cases};
 
 use std::time::Instant;
 

@@ -1,0 +1,138 @@
+//! Where the sweeps do not settle: friction raised from nothing to what it is.
+//!
+//! ```text
+//! (D6)  t(λ): the state for λ μ,  from λ = 0 to λ = 1,  each by Newton steps (D4) from the one before
+//! ```
+//!
+//! From state to state few contacts change what they do, and Newton steps follow where from afar
+//! they would cycle; a state without friction needs one normal program. The way ends where the
+//! states turn back (more than one state for the same friction): sweeping then goes on.
+
+use std::time::Instant;
+
+use faer::linalg::solvers::Solve;
+use faer::{Col, Mat, Side};
+
+use super::Shortfall;
+use super::finish::Finish;
+use super::iterate::Iterate;
+use super::sweep::Run;
+use crate::condensation::ContactProblem;
+use crate::cone::Role;
+use crate::kkt::Judge;
+
+/// Sweeps that get their chance before.
+const SWEEPS: usize = 2;
+
+/// First and least step of λ.
+const STRIDE: (f64, f64) = (0.125, 1e-3);
+
+/// Newton steps to a state on the way at most, and how few allow a longer stride.
+const STEPS: (usize, usize) = (9, 5);
+
+/// Newton steps on the whole way at most.
+const STEPS_IN_ALL: usize = 200;
+
+/// Tolerance of the normal program, and of states on the way: their sets are right.
+const CLOSE: f64 = 1e-8;
+
+impl Run<'_> {
+    /// (D6), once; then Newton steps to the last digits.
+    pub(super) fn climb_in_friction(&mut self) {
+        let given_up = self.shortfall == Some(Shortfall::ConeSolver);
+        if self.is_solved() || (self.work.sweeps != SWEEPS && !given_up) {
+            return;
+        }
+        let start = Instant::now();
+        let at_the_top = self.without_friction().and_then(|t| self.climb(t));
+        self.work.seconds.finish += start.elapsed().as_secs_f64();
+        if let Some(reaction) = at_the_top {
+            self.state.reaction = reaction;
+            self.judge();
+            self.newton_finish();
+        }
+    }
+
+    /// Normal reactions without friction: by Newton steps from all contacts pressed (which most often
+    /// only open), or else by a normal program.
+    fn without_friction(&mut self) -> Option<Vec<f64>> {
+        if let Some(pressed) = pressed(self.problem) {
+            let (found, steps) = state_at(self.problem, 0.0, &pressed)?;
+            self.work.newton_steps += steps;
+            if found.is_some() {
+                return found;
+            }
+        }
+        let mut reaction = vec![0.0; self.problem.unknowns()];
+        let mut roles = vec![Role::Cone; self.problem.contacts()];
+        let work = self.normal.solve(&mut reaction, &mut roles, CLOSE)?;
+        self.work.normal_programs += work.programs;
+        self.work.cone_iterations += work.iterations;
+        Some(reaction)
+    }
+
+    /// The state for the problem's own friction; none if the way ends before.
+    fn climb(&mut self, frictionless: Vec<f64>) -> Option<Vec<f64>> {
+        let most = self.work.newton_steps + STEPS_IN_ALL;
+        let (mut reaction, mut part, mut stride) = (frictionless, 0.0, STRIDE.0);
+        while part < 1.0 {
+            if stride < STRIDE.1 || self.work.newton_steps > most {
+                return None;
+            }
+            let next = f64::min(part + stride, 1.0);
+            self.work.friction_parts += 1;
+            let (near, steps) = state_at(self.problem, next, &reaction)?;
+            self.record.newton_steps += steps;
+            self.work.newton_steps += steps;
+            match near {
+                Some(state) => {
+                    (reaction, part) = (state, next);
+                    stride *= if steps <= STEPS.1 { 2.0 } else { 1.0 };
+                }
+                None => stride *= 0.5,
+            }
+        }
+        Some(reaction)
+    }
+}
+
+/// Normal reactions that close every gap, pulling where need be; none if G does not tell them apart.
+fn pressed(problem: &ContactProblem) -> Option<Vec<f64>> {
+    let normals = &problem.offsets()[..problem.contacts()];
+    let g = problem.compliance();
+    let form = Mat::from_fn(normals.len(), normals.len(), |i, j| {
+        g[(normals[i], normals[j])]
+    });
+    let apart = Col::from_fn(normals.len(), |contact| {
+        problem.initial_gap()[contact] - problem.free_displacement()[normals[contact]]
+    });
+    let closing = form.llt(Side::Lower).ok()?.solve(apart);
+    let mut reaction = vec![0.0; problem.unknowns()];
+    for (&n, t) in normals.iter().zip(closing.iter()) {
+        reaction[n] = *t;
+    }
+    Some(reaction)
+}
+
+/// The state for this part of friction if Newton steps lead there, and how many were taken; none
+/// where no Newton step is possible at all.
+fn state_at(
+    problem: &ContactProblem,
+    part: f64,
+    from: &[f64],
+) -> Option<(Option<Vec<f64>>, usize)> {
+    let friction = problem.friction().iter().map(|mu| part * mu).collect();
+    let problem = problem.with_friction(friction).ok()?;
+    let (judge, finish) = (Judge::new(&problem), Finish::new(&problem)?);
+    let mut state = Iterate::new(&judge, from.to_vec(), Vec::new());
+    for steps in 0..=STEPS.0 {
+        if state.residual() <= CLOSE {
+            return Some((Some(state.reaction), steps));
+        }
+        let Some(step) = finish.step(&state, &state.verdict.displacement) else {
+            return Some((None, steps));
+        };
+        state = state.moved(&step, 1.0, &judge);
+    }
+    Some((None, STEPS.0 + 1))
+}
