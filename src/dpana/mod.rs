@@ -12,7 +12,8 @@
 //! half-steps, with their equilibrium as rows (H8).
 //!
 //! A load step starts from the last state instead: its reaction tells which contacts are open,
-//! pressed, stuck, and a finish is tried before any sweep.
+//! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
+//! step on what each contact does there.
 //!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
@@ -67,14 +68,7 @@ pub fn solve_from(
     reaction: &[f64],
     motion: &[f64],
 ) -> Result<Outcome, Error> {
-    check(problem, settings)?;
-    check_length("reaction", problem.unknowns(), reaction.len())?;
-    check_length("motion", problem.free_modes(), motion.len())?;
-    check_finite("reaction", reaction)?;
-    check_finite("motion", motion)?;
-    let mut near = Run::new(problem, settings);
-    near.begin_from(reaction, motion, None);
-    Ok(run(near))
+    run_from(problem, settings, reaction, motion, None)
 }
 
 /// Solves a condensed contact problem from a solved neighbour: the same contacts under a little
@@ -86,20 +80,39 @@ pub fn solve_from(
 ///
 /// # Errors
 ///
-/// Those of [`solve`], and a neighbour of another length.
+/// Those of [`solve`], and a neighbour that is not of the problem's length or not finite.
 pub fn solve_near(
     problem: &ContactProblem,
     settings: &Settings,
     near: &Outcome,
 ) -> Result<Outcome, Error> {
-    check(problem, settings)?;
     let displacement = &near.verdict.displacement;
-    check_length("reaction", problem.unknowns(), near.reaction.len())?;
     check_length("displacement", problem.unknowns(), displacement.len())?;
-    check_length("motion", problem.free_modes(), near.motion.len())?;
-    let mut run_near = Run::new(problem, settings);
-    run_near.begin_from(&near.reaction, &near.motion, Some(displacement));
-    Ok(run(run_near))
+    check_finite("displacement", displacement)?;
+    run_from(
+        problem,
+        settings,
+        &near.reaction,
+        &near.motion,
+        Some(displacement),
+    )
+}
+
+fn run_from(
+    problem: &ContactProblem,
+    settings: &Settings,
+    reaction: &[f64],
+    motion: &[f64],
+    displacement: Option<&[f64]>,
+) -> Result<Outcome, Error> {
+    check(problem, settings)?;
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    check_length("motion", problem.free_modes(), motion.len())?;
+    check_finite("reaction", reaction)?;
+    check_finite("motion", motion)?;
+    let mut near = Run::new(problem, settings);
+    near.begin_from(reaction, motion, displacement);
+    Ok(run(near))
 }
 
 fn check(problem: &ContactProblem, settings: &Settings) -> Result<(), Error> {
