@@ -213,7 +213,7 @@ pub enum Error {
     /// The operator of a bare problem is not positive semi-definite.
     #[error(
         "operator: smallest eigenvalue {eigenvalue:e} (largest entry {largest:e}); expected a positive \
-         semi-definite matrix, no eigenvalue below -1e-10 of the trace"
+         semi-definite matrix, no eigenvalue below -1e-7 of the trace"
     )]
     Indefinite {
         /// Its smallest eigenvalue, in m/N.
