@@ -264,7 +264,7 @@ impl Solution {
         let stresses: Vec<_> = solved()
             .map(|(body, displacement)| {
                 let of_cells = body::cell_stress(body, displacement);
-                (body::nodal_stress(body, &of_cells), of_cells)
+                (body::nodal_stress(body, displacement, &of_cells), of_cells)
             })
             .collect();
         let fields: Vec<_> = solved()

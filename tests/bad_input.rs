@@ -294,12 +294,18 @@ fn keys_that_do_not_go_together_are_refused() {
             (
                 "/bodies/0/model",
                 json!("solid"),
-                &["bodies[0].model: solid", "plane_strain or"],
+                &[
+                    "bodies[0].model: solid",
+                    "plane_strain, plane_stress or axisymmetric",
+                ],
             ),
             (
                 "/bodies/0/model",
                 Value::Null,
-                &["bodies[0].model: nothing", "plane_strain or"],
+                &[
+                    "bodies[0].model: nothing",
+                    "plane_strain, plane_stress or axisymmetric",
+                ],
             ),
             (
                 "/bodies/0/materials/0",

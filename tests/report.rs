@@ -79,6 +79,7 @@ impl Row {
         let contact = |node: usize, initial_gap: f64, area: f64| ContactNode {
             body: 0,
             node,
+            own: vec![(node, 1.0)],
             opposite: None,
             pair: 0,
             position: [node as f64, 0.0, 0.0],

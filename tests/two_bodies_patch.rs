@@ -181,6 +181,31 @@ const PAIRS: [[CellKind; 2]; 6] = [
 ];
 
 #[test]
+fn quadratic_blocks_carry_the_pressure_evenly_on_each_other_and_on_linear_ones() {
+    for kinds in [
+        [CellKind::Quad9, CellKind::Quad9],
+        [CellKind::Quad8, CellKind::Quad4],
+        [CellKind::Tri6, CellKind::Quad9],
+        [CellKind::Tri3, CellKind::Tri6],
+        [CellKind::Hex27, CellKind::Hex8],
+        [CellKind::Hex20, CellKind::Tet10],
+        [CellKind::Tet4, CellKind::Tet10],
+    ] {
+        let solid = kinds[0].dimension() == 3;
+        for (friction, upper_first) in [(0.0, true), (0.3, false), (0.3, true)] {
+            Stack {
+                kinds,
+                cells: if solid { [3, 2] } else { [5, 7] },
+                materials: [STEEL; 2],
+                friction,
+                upper_first,
+            }
+            .check(1e-11);
+        }
+    }
+}
+
+#[test]
 fn blocks_of_one_material_carry_the_pressure_evenly() {
     for kinds in PAIRS {
         let solid = kinds[0].dimension() == 3;

@@ -31,11 +31,11 @@ pub(super) fn check_loads(body: &Body) -> Result<(), Error> {
         match load {
             Load::Pressure { facets, pressure } => {
                 check_finite(&format!("{}.pressure", place()), &[*pressure])?;
-                check_facets(place, facets, &owners)?;
+                check_facets(body, place, facets, &owners)?;
             }
             Load::Traction { facets, traction } => {
                 check_vector(body, || format!("{}.traction", place()), traction)?;
-                check_facets(place, facets, &owners)?;
+                check_facets(body, place, facets, &owners)?;
             }
             Load::BodyForce { cells, density } => {
                 check_vector(body, || format!("{}.density", place()), density)?;
@@ -53,6 +53,7 @@ pub(super) fn check_loads(body: &Body) -> Result<(), Error> {
 }
 
 fn check_facets(
+    body: &Body,
     place: impl Fn() -> String,
     facets: &[Facet],
     owners: &Owners<'_>,
@@ -61,7 +62,8 @@ fn check_facets(
     for (index, facet) in facets.iter().enumerate() {
         let place = || format!("{}.facets[{index}]", place());
         let outward = owners.outward(facet, place)?;
-        if !same_cycle(&facet.nodes, &outward.nodes) {
+        let dimension = body.mesh.dimension;
+        if !same_cycle(facet.corners(dimension), outward.corners(dimension)) {
             return Err(Error::FacetInward {
                 place: place(),
                 nodes: facet.nodes.clone(),
@@ -128,7 +130,7 @@ mod tests {
                 }];
             }
         };
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             assert_says(kind, press(|f| f.clear()), &["block: loads[0]", "empty"]);
             assert_says(
                 kind,

@@ -2,11 +2,12 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::kinds::MOST_FACET_NODES;
 use super::{Cell, Facet, Mesh};
 use crate::error::Error;
 
 /// Nodes of a facet in ascending order, the same for all its owners; free places stand last.
-type Key = [usize; 4];
+type Key = [usize; MOST_FACET_NODES];
 
 /// The cells that own given facets.
 pub(crate) struct Owners<'a> {
@@ -138,20 +139,22 @@ fn side_of(cell: Cell<'_>, local: usize) -> Facet {
 }
 
 fn key_of(cell: Cell<'_>, local: usize) -> Key {
-    let mut key = [usize::MAX; 4];
-    for (entry, node) in key.iter_mut().zip(cell.kind.facets()[local]) {
-        *entry = cell.nodes[*node];
-    }
-    key.sort_unstable();
-    key
+    let nodes = cell.kind.facets()[local].iter();
+    sorted(nodes.map(|node| cell.nodes[*node]))
 }
 
 fn key(nodes: &[usize]) -> Key {
-    let mut key = [usize::MAX; 4];
+    sorted(nodes.iter().copied())
+}
+
+fn sorted(nodes: impl Iterator<Item = usize>) -> Key {
+    let mut key = [usize::MAX; MOST_FACET_NODES];
+    let mut count = 0;
     for (entry, node) in key.iter_mut().zip(nodes) {
-        *entry = *node;
+        *entry = node;
+        count += 1;
     }
-    key.sort_unstable();
+    key[..count].sort_unstable();
     key
 }
 

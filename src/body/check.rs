@@ -1,10 +1,12 @@
 //! What a body must satisfy before it is assembled.
 
+use std::collections::HashMap;
+
 use nalgebra::Vector3;
 
 use super::applied::{check_loads, check_supports};
-use super::quadrature::{Point, positions, rule};
-use super::{Body, Cell, CellKind, Mesh};
+use super::quadrature::{Point, positions};
+use super::{Axis, Body, Cell, CellKind, Mesh};
 use crate::error::{Error, check_finite, check_length};
 
 /// Least Jacobian accepted, on the scale where a right-angled cell of any aspect has 1.
@@ -34,14 +36,24 @@ pub fn check(body: &Body) -> Result<(), Error> {
     }
     check_nodes(body)?;
     check_cells(body)?;
+    check_neighbours(body)?;
     check_lone_nodes(body)?;
     check_supports(body)?;
     check_loads(body)
 }
 
 fn check_nodes(body: &Body) -> Result<(), Error> {
+    let axis = Axis::of(body);
     for (node, position) in body.mesh.nodes.iter().enumerate() {
-        check_vector(body, || format!("{}: node {node}", body.name), position)?;
+        let place = || format!("{}: node {node}", body.name);
+        check_vector(body, place, position)?;
+        if position[0] < 0.0 && axis.is_some_and(|axis| !axis.holds(*position)) {
+            return Err(Error::OutOfRange {
+                place: format!("{}[0]", place()),
+                value: position[0],
+                accepted: "a radius x >= 0, for the body is axisymmetric",
+            });
+        }
     }
     Ok(())
 }
@@ -95,37 +107,66 @@ fn check_cells(body: &Body) -> Result<(), Error> {
 
 /// Points where a cell's Jacobian must be positive.
 ///
-/// That of a quadrilateral is linear, so its corners decide; that of a hexahedron is
-/// also taken at the quadrature points, where the stiffness needs it.
+/// That of a bilinear quadrilateral is linear, so its corners decide; that of hexahedra and
+/// quadratic cells is also taken at the quadrature points, where the stiffness needs it.
 struct CornerPoints {
-    points: [Vec<Point>; CellKind::ALL.len()],
+    points: Vec<(CellKind, Vec<Point>)>,
 }
 
 impl CornerPoints {
     fn new() -> Self {
-        let points = CellKind::ALL.map(|kind| {
-            let corners =
-                (0..kind.node_count()).map(|node| Point::at(kind, kind.corner(node), 0.0));
-            if kind.is_tensor_product() {
-                corners.chain(rule(kind).iter().copied()).collect()
-            } else {
-                rule(kind).to_vec()
-            }
+        let points = CellKind::all().map(|kind| {
+            let cell = kind.reference();
+            let nodes = cell.nodes.iter().map(|at| Point::at(cell, *at, 0.0));
+            let constant = kind.is_linear() && !kind.is_tensor_product();
+            let nodes = nodes.take(if constant { 0 } else { kind.node_count() });
+            (kind, nodes.chain(cell.rule.iter().cloned()).collect())
         });
-        Self { points }
+        Self {
+            points: points.collect(),
+        }
     }
 
     /// Least `det J / (‖t_1‖ ‖t_2‖ ‖t_3‖)`, 1 at right angles whatever the aspect ratio.
     fn smallest_jacobian(&self, mesh: &Mesh, cell: Cell<'_>) -> f64 {
         let positions = positions(mesh, cell.nodes);
         let normalised = |point: &Point| {
-            let [t1, t2, t3] = point.tangents(cell.kind, &positions[..cell.nodes.len()]);
+            let [t1, t2, t3] = point.tangents(mesh.dimension, &positions);
             let unit = |t: Vector3<f64>| t.try_normalize(0.0).unwrap_or_default();
             unit(t1).dot(&unit(t2).cross(&unit(t3)))
         };
-        let points = self.points[cell.kind as usize].iter();
+        let of_kind = self.points.iter().filter(|(kind, _)| *kind == cell.kind);
+        let points = of_kind.flat_map(|(_, points)| points);
         points.map(normalised).fold(1.0, f64::min)
     }
+}
+
+/// Cells whose corners meet must also share the nodes between them.
+fn check_neighbours(body: &Body) -> Result<(), Error> {
+    let mesh = &body.mesh;
+    if mesh.cells().all(|cell| cell.kind.is_linear()) {
+        return Ok(());
+    }
+    let mut met = HashMap::new();
+    for facet in mesh.boundary_facets() {
+        let mut corners = facet.corners(mesh.dimension).to_vec();
+        corners.sort_unstable();
+        let order = facet.is_quadratic(mesh.dimension);
+        let nodes = format!("{:?}", facet.nodes);
+        if let Some((before, quadratic)) = met.insert(corners, (nodes.clone(), order)) {
+            let kinds = if quadratic == order {
+                ""
+            } else {
+                ", one linear and one quadratic"
+            };
+            return Err(Error::NotAccepted {
+                place: format!("{}: cells", body.name),
+                found: format!("neighbours with the facets {before} and {nodes}{kinds}"),
+                accepted: "neighbours that share all nodes of their facet".to_owned(),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn check_lone_nodes(body: &Body) -> Result<(), Error> {
@@ -188,7 +229,7 @@ mod tests {
 
     #[test]
     fn a_sound_body_passes() {
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let sound = |body: &mut Body| {
                 let facets = facets(&body.mesh, "top");
                 body.loads = vec![Load::Pressure {
@@ -203,7 +244,7 @@ mod tests {
     #[test]
     fn a_cell_turned_inside_out_is_named_with_its_place_and_volume() {
         // Mirrored at x = 0 every cell is inside out, and the first is named.
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let mirror = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[0] = -x[0]);
             assert_says(kind, mirror, &["block: cell 0 at (-", "signed volume -"]);
         }
@@ -211,7 +252,7 @@ mod tests {
 
     #[test]
     fn a_flat_cell_is_refused_whatever_its_aspect() {
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let axis = kind.dimension() - 1;
             let flatten = |body: &mut Body| body.mesh.nodes.iter_mut().for_each(|x| x[axis] = 0.0);
             assert_says(kind, flatten, &["cell 0 at", "flat"]);
@@ -234,6 +275,36 @@ mod tests {
             fold,
             &["cell 0", "folded", "signed volume 4e-1"],
         );
+    }
+
+    #[test]
+    fn a_quadratic_cell_beside_a_linear_one_is_refused() {
+        // Two squares with the side x = 1 in common, of which one has a node in its middle.
+        let beside = |body: &mut Body| {
+            let edge = |kind: CellKind, x: f64| {
+                let nodes = kind.reference().nodes.iter();
+                nodes.map(move |at| [x + at[0] / 2.0, at[1] / 2.0, 0.0])
+            };
+            let mut nodes: Vec<[f64; 3]> = edge(CellKind::Quad8, 0.5).collect();
+            nodes.extend([[2.0, -0.5, 0.0], [2.0, 0.5, 0.0]]);
+            body.mesh = Mesh::new(2, nodes);
+            body.mesh
+                .push_cell(CellKind::Quad8, &[0, 1, 2, 3, 4, 5, 6, 7]);
+            body.mesh.push_cell(CellKind::Quad4, &[1, 8, 9, 2]);
+            body.material_of_cell = vec![0; 2];
+        };
+        assert_says(CellKind::Quad4, beside, &["neighbours", "one linear"]);
+    }
+
+    #[test]
+    fn a_node_between_corners_that_folds_its_cell_is_refused() {
+        // Moved from the middle of a side to beyond its end.
+        let shift = |body: &mut Body| {
+            let cell = body.mesh.cell(0).nodes.to_vec();
+            let end = body.mesh.nodes[cell[1]];
+            body.mesh.nodes[cell[4]] = [end[0] + 0.1, end[1], 0.0];
+        };
+        assert_says(CellKind::Quad9, shift, &["cell 0", "folded"]);
     }
 
     #[test]

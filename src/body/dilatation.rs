@@ -5,7 +5,7 @@
 //! From ν = 0.45 on it therefore sees a mean in place of θ:
 //!
 //! ```text
-//! (B4)  Quad4, Hex8   mean over the cell:          λ V ḡ_a ḡ_bᵀ,    ḡ_a = (1/V) ∫ ∇N_a dV
+//! (B4)  Quad4, Hex8   mean over the cell:          λ V ḡ_a ḡ_bᵀ,    ḡ_a = (1/V) ∫ d_a dV
 //! (B5)  Tri3, Tet4    mean around each node p:     λ V_p b_pa b_pbᵀ,
 //!                     b_pa = (1/V_p) Σ_e (V_e/n) ∇N_a^e,   V_p = Σ_e V_e/n,
 //!                     e: the nearly incompressible cells of one material around p, n nodes each
@@ -18,11 +18,14 @@
 //! two to five times as many. Its displacements converge as those of a compressible
 //! body; its pressures are rougher than those of (B4), which is the better choice where
 //! pressure matters. The μ-term stays as it is in both, so no deformation but a rigid one
-//! is free of energy. In plane stress the thickness yields and nothing locks.
+//! is free of energy. In plane stress the thickness yields and nothing locks. In rings the
+//! means are those of `d_a` (B10), which is `∇N_a` elsewhere.
+//!
+//! Quadratic cells keep θ at every quadrature point: they do not lock as linear ones do, though
+//! towards ν = ½ coarse ones are stiffer, triangles most, and stresses lose accuracy first.
 
 use nalgebra::Vector3;
 
-use super::cell::MOST_NODES;
 use super::incidence::Incidence;
 use super::quadrature::{Mapped, mapped};
 use super::{Body, CellKind, Material, Model};
@@ -44,7 +47,7 @@ pub(crate) enum Dilatation {
 impl Dilatation {
     pub(crate) fn of(kind: CellKind, model: Model, material: &Material) -> Self {
         let plane_stress = matches!(model, Model::PlaneStress { .. });
-        if plane_stress || material.poisson < NEARLY_INCOMPRESSIBLE {
+        if plane_stress || material.poisson < NEARLY_INCOMPRESSIBLE || !kind.is_linear() {
             Self::Pointwise
         } else if kind.is_tensor_product() {
             Self::CellMean
@@ -67,13 +70,14 @@ impl Body {
     }
 }
 
-/// Volume of a cell and `ḡ_a = (1/V) ∫ ∇N_a dV` (B4).
-pub(crate) fn mean_gradients(points: &[Mapped]) -> (f64, [Vector3<f64>; MOST_NODES]) {
+/// Volume of a cell and `ḡ_a = (1/V) ∫ d_a dV` (B4).
+pub(crate) fn mean_gradients(points: &[Mapped]) -> (f64, Vec<Vector3<f64>>) {
     let volume: f64 = points.iter().map(|point| point.volume).sum();
-    let mut mean = [Vector3::zeros(); MOST_NODES];
+    let nodes = points.first().map_or(0, |point| point.gradients.len());
+    let mut mean = vec![Vector3::zeros(); nodes];
     for point in points {
-        for (sum, gradient) in mean.iter_mut().zip(&point.gradients) {
-            *sum += gradient * (point.volume / volume);
+        for (a, sum) in mean.iter_mut().enumerate() {
+            *sum += point.divergence(a) * (point.volume / volume);
         }
     }
     (volume, mean)
@@ -135,10 +139,10 @@ impl Patches {
             let mut patch_volume = 0.0;
             for &member in around.of(centre) {
                 let cell = mesh.cell(cells[member]);
-                let [point, ..] = mapped(mesh, cell);
-                let share = point.volume / cell.nodes.len() as f64;
+                let (volume, mean) = mean_gradients(&mapped(body, cell));
+                let share = volume / cell.nodes.len() as f64;
                 patch_volume += share;
-                for (&node, gradient) in cell.nodes.iter().zip(&point.gradients) {
+                for (&node, gradient) in cell.nodes.iter().zip(&mean) {
                     if place[node] == usize::MAX {
                         place[node] = self.nodes.len();
                         self.nodes.push(node);

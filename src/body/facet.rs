@@ -3,42 +3,122 @@
 //! ```text
 //! ∫ N_i dA        tributary area of node i
 //! ∫ N_i n dA      the same with the unit normal under the integral
+//! ∫ φ_j dA        that of corner j alone: φ_j is linear on the facet
 //! ```
 //!
 //! Lines and triangles are flat, so every node carries an equal share. On a bilinear
 //! quadrilateral `n dA = t_1 × t_2 dξ dη` is a polynomial, which 2 × 2 Gauss points
-//! integrate exactly, warped or not.
+//! integrate exactly, warped or not. A quadratic triangle's corners carry nothing, those of
+//! a quadrilateral of eight nodes less than nothing: contact takes `φ_j` there.
+//!
+//! A facet of an axisymmetric body goes once around the axis: `dA = 2πr ds`.
+
+use std::f64::consts::PI;
 
 use nalgebra::Vector3;
 
-use super::cell::MOST_NODES;
-use super::quadrature::{positions, rule};
-use super::{CellKind, Facet, Mesh};
+use super::kinds::{MOST_FACET_NODES, facet_reference, linear_facet};
+use super::quadrature::positions;
+use super::reference::Reference;
+use super::{Body, Facet, Mesh, Model};
 
 /// Area, normal and nodal shares of a facet; entries past its last node are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FacetGeometry {
-    /// Area, in m² (2D: length, in metre).
+    /// Area, in m² (plane bodies: length, in metre).
     pub area: f64,
     /// Unit normal, the mean over the facet; outward if the facet's nodes run in outward order.
     pub normal: [f64; 3],
-    /// `∫ N_i dA` per node, in m² (2D: in metre).
-    pub weights: [f64; 4],
-    /// `∫ N_i n dA` per node, in m² (2D: in metre).
-    pub vectors: [[f64; 3]; 4],
+    /// `∫ N_i dA` per node, in m² (plane bodies: in metre).
+    pub weights: [f64; MOST_FACET_NODES],
+    /// `∫ N_i n dA` per node, in m² (plane bodies: in metre).
+    pub vectors: [[f64; 3]; MOST_FACET_NODES],
+}
+
+/// A quadrature point of a facet in space.
+#[derive(Clone, Debug)]
+pub(crate) struct FacetPoint {
+    /// Where it is, in metre.
+    pub(crate) position: Vector3<f64>,
+    /// `n dA`, in m² (plane bodies: in metre).
+    pub(crate) vector: Vector3<f64>,
+    /// Values `N_i` at the nodes.
+    pub(crate) shape: Vec<f64>,
+    /// Values `φ_j` at the corners.
+    pub(crate) hats: Vec<f64>,
+}
+
+/// The reference facet of so many nodes.
+#[derive(Clone, Copy)]
+pub(crate) struct FacetReference(&'static Reference);
+
+impl FacetReference {
+    /// That of a mesh of dimension 2 or 3; none if there is no such facet.
+    pub(crate) fn of(dimension: usize, nodes: usize) -> Option<Self> {
+        facet_reference(dimension, nodes).map(Self)
+    }
+
+    /// Positions of its nodes, corners first.
+    pub(crate) fn nodes(self) -> &'static [[f64; 3]] {
+        self.0.nodes
+    }
+
+    /// Number of corners.
+    pub(crate) fn corners(self) -> usize {
+        self.0.corners
+    }
+
+    /// Values `N_i` at the nodes.
+    pub(crate) fn shape(self, at: [f64; 3]) -> Vec<f64> {
+        self.0.shape(at)
+    }
+
+    /// Values `φ_j` at the corners.
+    pub(crate) fn hats(self, at: [f64; 3]) -> Vec<f64> {
+        linear_facet(self.0).shape(at)
+    }
 }
 
 impl Mesh {
-    /// Geometry of a facet with 2, 3 or 4 nodes of this mesh.
+    /// Geometry of a facet of this mesh, as that of a plane or solid body; zero if there is no
+    /// facet of so many nodes.
     #[must_use]
     pub fn facet_geometry(&self, facet: &Facet) -> FacetGeometry {
         let x = positions(self, &facet.nodes);
-        match facet.nodes.len() {
+        match (self.dimension, x.as_slice()) {
             // The outside of a plane body is on the right of its lines.
-            2 => flat((x[1] - x[0]).cross(&Vector3::z()), 2),
-            3 => flat((x[1] - x[0]).cross(&(x[2] - x[0])) / 2.0, 3),
-            _ => bilinear(&x),
+            (2, [a, b]) => flat((b - a).cross(&Vector3::z()), 2),
+            (3, [a, b, c]) => flat((b - a).cross(&(c - a)) / 2.0, 3),
+            _ => integrated(self, facet, &x, |_| 1.0),
         }
+    }
+
+    /// The quadrature points of a facet of a body of this mesh.
+    pub(crate) fn facet_points(&self, facet: &Facet, model: Model) -> Vec<FacetPoint> {
+        let x = positions(self, &facet.nodes);
+        points(self, facet, &x, around(model))
+    }
+}
+
+impl Body {
+    /// Geometry of a facet of the mesh, once around the axis if the body is axisymmetric.
+    #[must_use]
+    pub fn facet_geometry(&self, facet: &Facet) -> FacetGeometry {
+        match self.model {
+            Model::Axisymmetric => {
+                let x = positions(&self.mesh, &facet.nodes);
+                integrated(&self.mesh, facet, &x, around(self.model))
+            }
+            _ => self.mesh.facet_geometry(facet),
+        }
+    }
+}
+
+/// Length around the axis at a position, in metre; one where there is no axis.
+pub(crate) fn around(model: Model) -> impl Fn(Vector3<f64>) -> f64 {
+    move |x| match model {
+        Model::Axisymmetric => 2.0 * PI * x.x,
+        _ => 1.0,
     }
 }
 
@@ -57,27 +137,63 @@ fn flat(area_vector: Vector3<f64>, nodes: usize) -> FacetGeometry {
     geometry
 }
 
-fn bilinear(x: &[Vector3<f64>; MOST_NODES]) -> FacetGeometry {
+fn integrated(
+    mesh: &Mesh,
+    facet: &Facet,
+    x: &[Vector3<f64>],
+    length: impl Fn(Vector3<f64>) -> f64,
+) -> FacetGeometry {
     let mut geometry = FacetGeometry::default();
-    let mut vectors = [Vector3::zeros(); 4];
-    for point in rule(CellKind::Quad4) {
-        let [mut t1, mut t2] = [Vector3::zeros(); 2];
-        for (position, derivative) in x.iter().zip(point.derivatives).take(4) {
-            t1 += position * derivative[0];
-            t2 += position * derivative[1];
-        }
-        let area_vector = t1.cross(&t2) * point.weight;
-        let area = area_vector.norm();
+    let mut vectors = [Vector3::zeros(); MOST_FACET_NODES];
+    for point in points(mesh, facet, x, &length) {
+        let area = point.vector.norm();
         geometry.area += area;
         let shares = geometry.weights.iter_mut().zip(&mut vectors);
         for ((weight, vector), shape) in shares.zip(point.shape) {
             *weight += shape * area;
-            *vector += area_vector * shape;
+            *vector += point.vector * shape;
         }
     }
     geometry.normal = direction(vectors.iter().sum());
+    if geometry.area == 0.0 {
+        // On the axis a facet has no area, but still looks somewhere.
+        geometry.normal = direction(
+            points(mesh, facet, x, |_| 1.0)
+                .iter()
+                .map(|p| p.vector)
+                .sum(),
+        );
+    }
     geometry.vectors = vectors.map(Into::into);
     geometry
+}
+
+fn points(
+    mesh: &Mesh,
+    facet: &Facet,
+    x: &[Vector3<f64>],
+    length: impl Fn(Vector3<f64>) -> f64,
+) -> Vec<FacetPoint> {
+    let Some(reference) = facet_reference(mesh.dimension, facet.nodes.len()) else {
+        return Vec::new();
+    };
+    let linear = linear_facet(reference);
+    let rule = reference.rule.iter();
+    rule.map(|point| {
+        let [t1, t2, _] = point.tangents(reference.dimension, x);
+        let normal = match reference.dimension {
+            1 => t1.cross(&Vector3::z()),
+            _ => t1.cross(&t2),
+        };
+        let position = point.in_space(x);
+        FacetPoint {
+            position,
+            vector: normal * (point.weight * length(position)),
+            shape: point.shape.clone(),
+            hats: linear.shape(point.position),
+        }
+    })
+    .collect()
 }
 
 /// Unit vector, or zero for a facet without area.
@@ -102,7 +218,7 @@ mod tests {
         // From (0, 0) to (3, 4): length 5, right-hand normal (4, −3)/5.
         let found = geometry(&[[0.0; 3], [3.0, 4.0, 0.0]]);
         assert_eq!((found.area, found.normal), (5.0, [0.8, -0.6, 0.0]));
-        assert_eq!(found.weights, [2.5, 2.5, 0.0, 0.0]);
+        assert_eq!(found.weights[..3], [2.5, 2.5, 0.0]);
         assert_eq!(found.vectors[0], [2.0, -1.5, 0.0]);
     }
 
@@ -110,7 +226,7 @@ mod tests {
     fn each_node_of_a_triangle_carries_a_third() {
         let found = geometry(&[[0.0; 3], [3.0, 0.0, 0.0], [0.0, 4.0, 0.0]]);
         assert_eq!((found.area, found.normal), (6.0, [0.0, 0.0, 1.0]));
-        assert_eq!(found.weights, [2.0, 2.0, 2.0, 0.0]);
+        assert_eq!(found.weights[..4], [2.0, 2.0, 2.0, 0.0]);
     }
 
     #[test]

@@ -5,7 +5,9 @@
 //! ```
 //!
 //! A plane-stress body is as deep as its thickness, which multiplies the integrals;
-//! forces at nodes are taken as they are.
+//! forces at nodes are taken as they are. Integrals over an axisymmetric body go once around
+//! its axis (`dA = 2πr ds`), so that all forces are those of the whole ring; a force at a node is
+//! that of the ring through it.
 
 use super::quadrature::{mapped, rule};
 use super::{Body, Facet, Load};
@@ -62,7 +64,7 @@ impl NodalForces<'_> {
     fn add_pressure(&mut self, facets: &[Facet], pressure: f64) {
         let depth = self.body.model.depth();
         for facet in facets {
-            let geometry = self.body.mesh.facet_geometry(facet);
+            let geometry = self.body.facet_geometry(facet);
             for (node, vector) in facet.nodes.iter().zip(geometry.vectors) {
                 self.add(*node, vector, -pressure * depth);
             }
@@ -72,7 +74,7 @@ impl NodalForces<'_> {
     fn add_traction(&mut self, facets: &[Facet], traction: [f64; 3]) {
         let depth = self.body.model.depth();
         for facet in facets {
-            let geometry = self.body.mesh.facet_geometry(facet);
+            let geometry = self.body.facet_geometry(facet);
             for (node, weight) in facet.nodes.iter().zip(geometry.weights) {
                 self.add(*node, traction, weight * depth);
             }
@@ -83,9 +85,9 @@ impl NodalForces<'_> {
         let depth = self.body.model.depth();
         for cell in cells {
             let cell = self.body.mesh.cell(*cell);
-            let points = mapped(&self.body.mesh, cell);
-            for (point, reference) in points.iter().zip(rule(cell.kind)) {
-                for (node, shape) in cell.nodes.iter().zip(reference.shape) {
+            let points = mapped(self.body, cell);
+            for (point, reference) in points.iter().zip(rule(cell.kind, self.body.model)) {
+                for (node, shape) in cell.nodes.iter().zip(&reference.shape) {
                     self.add(*node, density, shape * point.volume * depth);
                 }
             }
@@ -126,7 +128,7 @@ mod tests {
     #[test]
     fn a_pressure_pushes_inward_with_pressure_times_area() {
         // Block of 2 × 1 (× 1): the top has area 2 and is pressed down; a plate of 0.5 m carries half.
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let mut body = block(kind);
             let facets = facets(&body.mesh, "top");
             body.loads = vec![Load::Pressure {
@@ -145,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_pressure_all_around_is_in_equilibrium() {
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let mut body = block(kind);
             let facets = body.mesh.boundary_facets();
             body.loads = vec![Load::Pressure {
@@ -159,7 +161,7 @@ mod tests {
     #[test]
     fn tractions_and_body_forces_carry_area_and_volume() {
         // Right side of area 1, volume 2, and one force of (1, 1, 1).
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let mut body = block(kind);
             let (facets, cells) = (facets(&body.mesh, "right"), 0..body.mesh.cell_count());
             body.loads = vec![

@@ -81,7 +81,7 @@ fn widening(body: &Body) -> f64 {
 
 #[test]
 fn an_incompressible_tube_widens_as_lame_says_and_the_error_falls_with_refinement() {
-    for kind in CellKind::ALL {
+    for kind in CellKind::LINEAR {
         // Simplices start with five to six times the error of the tensor-product cells.
         let accepted = if kind.is_tensor_product() {
             0.006
@@ -103,7 +103,8 @@ fn the_plain_cells_lock_on_the_same_tube() {
 /// Root mean square over the nodes of the error of `σ_zz` in a tube; Lamé has the same
 /// `σ_zz = 2 ν p a²/(b²−a²) = 2 ν/3` everywhere.
 fn axial_stress_error(body: &Body) -> f64 {
-    let nodes = nodal_stress(body, &cell_stress(body, &solve(body)));
+    let found = solve(body);
+    let nodes = nodal_stress(body, &found, &cell_stress(body, &found));
     let squares = nodes
         .iter()
         .map(|stress| (stress[2] - 0.9998 / 3.0).powi(2));
@@ -113,7 +114,7 @@ fn axial_stress_error(body: &Body) -> f64 {
 #[test]
 fn the_pressure_in_an_incompressible_tube_is_not_noise() {
     // λ = 1.7e4 Pa times the strains' error would be tens of pascal.
-    for kind in CellKind::ALL {
+    for kind in CellKind::LINEAR {
         let [coarse, fine] = [4, 8].map(|count| axial_stress_error(&tube(kind, count)));
         let (accepted, fall) = if kind.is_tensor_product() {
             (1e-3, 0.4)
@@ -169,7 +170,7 @@ fn deflection(body: &Body) -> f64 {
 
 #[test]
 fn a_bent_incompressible_beam_is_as_flexible_as_a_compressible_one() {
-    for kind in CellKind::ALL {
+    for kind in CellKind::LINEAR {
         let [soft, tight] = [0.3, 0.4999].map(|poisson| deflection(&beam(kind, poisson)));
         let accepted = if kind.is_tensor_product() { 0.01 } else { 0.06 };
         assert!((tight - 1.0).abs() < accepted, "{kind:?}: {tight}");

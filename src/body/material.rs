@@ -5,7 +5,7 @@
 //!                        λ = E ν / (1 − ν²)               plane stress: σ_zz = 0 eliminates ε_zz
 //! ```
 //!
-//! With the λ of its model, one formula in the body's own axes serves all three models.
+//! With the λ of its model, one formula in the body's own axes serves all models.
 //! Timoshenko & Goodier, Theory of Elasticity (1970), art. 11 and 84.
 
 use super::{Material, Model};
@@ -21,12 +21,13 @@ pub struct Lame {
 }
 
 impl Model {
-    /// Depth of the body, in metre; 1 in plane strain and 3D.
+    /// Depth of the body, in metre; 1 in plane strain and 3D, and of axisymmetric bodies, whose
+    /// integrals go around the axis.
     #[must_use]
     pub const fn depth(self) -> f64 {
         match self {
             Self::PlaneStress { thickness } => thickness,
-            Self::PlaneStrain | Self::Solid => 1.0,
+            Self::PlaneStrain | Self::Axisymmetric | Self::Solid => 1.0,
         }
     }
 
@@ -34,7 +35,7 @@ impl Model {
     #[must_use]
     pub const fn dimension(self) -> usize {
         match self {
-            Self::PlaneStrain | Self::PlaneStress { .. } => 2,
+            Self::PlaneStrain | Self::PlaneStress { .. } | Self::Axisymmetric => 2,
             Self::Solid => 3,
         }
     }
@@ -56,7 +57,7 @@ impl Material {
         let (young, poisson) = (self.young, self.poisson);
         let lambda = match model {
             Model::PlaneStress { .. } => young * poisson / (1.0 - poisson * poisson),
-            Model::PlaneStrain | Model::Solid => {
+            Model::PlaneStrain | Model::Axisymmetric | Model::Solid => {
                 young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
             }
         };

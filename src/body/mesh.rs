@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 
-/// The linear cells, with Gmsh's (and VTK's) order of nodes.
+use super::kinds::facet_reference;
+
+/// The cells, with Gmsh's order of nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CellKind {
     /// Triangle of constant strain.
@@ -13,6 +15,18 @@ pub enum CellKind {
     Tet4,
     /// Trilinear hexahedron.
     Hex8,
+    /// Quadratic triangle.
+    Tri6,
+    /// Quadratic quadrilateral without a middle node.
+    Quad8,
+    /// Biquadratic quadrilateral.
+    Quad9,
+    /// Quadratic tetrahedron.
+    Tet10,
+    /// Quadratic hexahedron with nodes at corners and on edges.
+    Hex20,
+    /// Triquadratic hexahedron.
+    Hex27,
 }
 
 /// One cell: its kind and its nodes.
@@ -24,11 +38,27 @@ pub struct Cell<'a> {
     pub nodes: &'a [usize],
 }
 
-/// A piece of surface: 2 nodes (2D), 3 or 4 nodes (3D).
+/// A piece of surface: 2 or 3 nodes (2D); 3, 4, 6, 8 or 9 nodes (3D).
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Facet {
-    /// Node numbers, running around the facet.
+    /// Node numbers: the corners, running around the facet; on quadratic ones then the nodes
+    /// between each corner and the next, then the one in the middle.
     pub nodes: Vec<usize>,
+}
+
+impl Facet {
+    /// The corners of a facet of a mesh of dimension 2 or 3; none if there is no such facet.
+    #[must_use]
+    pub fn corners(&self, dimension: usize) -> &[usize] {
+        let count = facet_reference(dimension, self.nodes.len()).map_or(0, |facet| facet.corners);
+        &self.nodes[..count]
+    }
+
+    /// Whether a facet of a mesh of dimension 2 or 3 has nodes beside its corners.
+    #[must_use]
+    pub fn is_quadratic(&self, dimension: usize) -> bool {
+        self.corners(dimension).len() < self.nodes.len()
+    }
 }
 
 /// A named part of the mesh.
@@ -38,8 +68,8 @@ pub enum Group {
     Cells(Vec<usize>),
     /// Surface facets: lines in 2D, triangles and quadrilaterals in 3D.
     Facets(Vec<Facet>),
-    /// Lines in 3D.
-    Edges(Vec<[usize; 2]>),
+    /// Lines in 3D: their ends, then the node between them if there is one.
+    Edges(Vec<Vec<usize>>),
     /// Single nodes.
     Points(Vec<usize>),
 }
@@ -77,6 +107,27 @@ impl Mesh {
         self.kinds.push(kind);
         self.connectivity.extend_from_slice(nodes);
         self.offsets.push(self.connectivity.len());
+    }
+
+    /// Drops the nodes that no cell has; there are no groups yet.
+    pub(super) fn drop_lone_nodes(&mut self) {
+        let mut number = vec![usize::MAX; self.nodes.len()];
+        for node in &self.connectivity {
+            number[*node] = 0;
+        }
+        let mut kept = Vec::with_capacity(self.nodes.len());
+        for (number, position) in number.iter_mut().zip(&self.nodes) {
+            if *number == 0 {
+                *number = kept.len();
+                kept.push(*position);
+            }
+        }
+        if kept.len() < self.nodes.len() {
+            self.nodes = kept;
+            for node in &mut self.connectivity {
+                *node = number[*node];
+            }
+        }
     }
 
     /// Number of cells.

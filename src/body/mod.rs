@@ -9,15 +9,22 @@
 //! (B7)  u(x) = a + ω × (x − c)                   what supports have to hold    rigid.rs
 //! (B8)  mean of u_j · u_k = δ_jk                  what they leave free          rigid_modes.rs
 //! (B9)  η² = ∫ (σ* − σ) : C⁻¹ : (σ* − σ) dV        how wrong the stress is       recovery.rs
+//! (B10) div (N_a u_a) = d_a · u_a                 rings strain around the axis  quadrature.rs
+//! (B11) K_ab of a ring                                                          stiffness.rs
 //! ```
 //!
 //! In order: [`check`](check()), [`prescribed`], [`free_modes`], then [`stiffness`](stiffness())
 //! and [`load_vector`], and [`cell_stress`] of the displacement found.
 //!
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
-//! plane stress; every force below is for that depth.
+//! plane stress; every force below is for that depth. Forces on an axisymmetric body are
+//! those of the whole circumference.
+//!
+//! A kind of cell is an entry of the table in `kinds.rs`; its shape functions are those of its
+//! family in `reference.rs`, its points of quadrature in `quadrature.rs`.
 
 mod applied;
+mod axis;
 mod boundary;
 mod cell;
 mod check;
@@ -26,6 +33,7 @@ mod facet;
 mod fixing;
 pub mod gmsh;
 mod incidence;
+mod kinds;
 mod load;
 #[cfg(test)]
 mod locking;
@@ -33,8 +41,11 @@ mod material;
 pub mod mesh;
 mod quadrature;
 mod recovery;
+mod reference;
 mod rigid;
 mod rigid_modes;
+#[cfg(test)]
+mod rings;
 #[cfg(test)]
 pub(crate) mod samples;
 mod sparsity;
@@ -43,8 +54,13 @@ mod stress;
 mod structured;
 mod support;
 
+pub(crate) use axis::Axis;
+pub use axis::held_by_axis;
 pub use check::check;
 pub use facet::FacetGeometry;
+pub(crate) use facet::{FacetPoint, FacetReference, around};
+pub(crate) use kinds::MOST_FACET_NODES;
+
 pub use fixing::fixing_dofs;
 pub use load::{load_vector, nodal_forces};
 pub use material::Lame;
@@ -66,6 +82,9 @@ pub enum Model {
         /// Depth of the plate, in metre.
         thickness: f64,
     },
+    /// 2D, the section `x = r ≥ 0`, `y = z` of a body of revolution about the y axis, which turns
+    /// about it neither as a whole nor in itself. Nodes on the axis stay there.
+    Axisymmetric,
     /// 3D.
     Solid,
 }
@@ -114,7 +133,8 @@ pub enum Load {
         /// Force density, in N/m³.
         density: [f64; 3],
     },
-    /// Force at a node in global axes, in newton (2D: per metre of depth).
+    /// Force at a node in global axes, in newton (plane: per metre of depth; axisymmetric: on the
+    /// whole ring through the node).
     PointForce {
         /// Loaded node.
         node: usize,
@@ -130,7 +150,7 @@ pub struct Body {
     pub name: String,
     /// Nodes, cells and named groups.
     pub mesh: Mesh,
-    /// Plane strain, plane stress or 3D.
+    /// Plane strain, plane stress, axisymmetric or 3D.
     pub model: Model,
     /// The materials.
     pub materials: Vec<Material>,

@@ -3,142 +3,222 @@
 //! ```text
 //! ∫ f dV ≈ Σ_q f(x_q) w_q det J_q,     J = [t_1 t_2 t_3],   t_j = Σ_a x_a ∂N_a/∂ξ_j
 //! ∇N_a = Σ_j r_j ∂N_a/∂ξ_j,            r_1 = t_2 × t_3 / det J  (and cyclic)
+//! div (N_a u_a) = d_a · u_a,           d_a = ∇N_a, and on rings + (N_a/r) e_r      (B10)
 //! ```
 //!
 //! The tangents `t_j` and their reciprocal basis `r_j` serve plane cells as well: there
-//! `t_3` is the unit vector out of the plane. Two Gauss points per axis integrate the
-//! volume, `∫ N_a dV` and `∫ ∇N_a dV` of every cell exactly, warped hexahedra included.
+//! `t_3` is the unit vector out of the plane. Rings, the cells of axisymmetric bodies,
+//! have `2πr` times the area of their section for a volume.
+//!
+//! Two Gauss points per axis integrate the volume, `∫ N_a dV` and `∫ ∇N_a dV` of every linear
+//! cell exactly, warped hexahedra included; quadratic cells have three, and simplices six
+//! (degree 4: Dunavant, Int. J. Numer. Meth. Engng 21 (1985) 1129–1148) and four (degree 2).
+//! Straight-sided ones are integrated exactly with these, but for the rings' `1/r`.
 
+use std::f64::consts::PI;
 use std::sync::LazyLock;
 
 use nalgebra::Vector3;
 
-use super::cell::MOST_NODES;
-use super::{Cell, CellKind, Mesh};
+use super::reference::{Family, Reference};
+use super::{Body, Cell, CellKind, Mesh, Model};
 
 /// A quadrature point of the reference cell.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Point {
     /// Weight `w_q`.
     pub(crate) weight: f64,
+    /// Where it is.
+    pub(crate) position: [f64; 3],
     /// Values `N_a`.
-    pub(crate) shape: [f64; MOST_NODES],
+    pub(crate) shape: Vec<f64>,
     /// Derivatives `∂N_a/∂ξ_j`.
-    pub(crate) derivatives: [[f64; 3]; MOST_NODES],
+    pub(crate) derivatives: Vec<[f64; 3]>,
 }
 
 /// A quadrature point in space.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Mapped {
     /// Gradients `∇N_a`, in 1/m.
-    pub(crate) gradients: [Vector3<f64>; MOST_NODES],
-    /// Volume `w_q det J_q` that the point stands for, in m³ (2D: m²).
+    pub(crate) gradients: Vec<Vector3<f64>>,
+    /// `N_a/r` on rings, in 1/m; none elsewhere.
+    pub(crate) hoop: Vec<f64>,
+    /// Volume `w_q det J_q` that the point stands for, in m³ (plane bodies: m²).
     pub(crate) volume: f64,
 }
 
 impl Point {
-    /// The shape functions of `kind` at a reference position.
-    pub(crate) fn at(kind: CellKind, position: [f64; 3], weight: f64) -> Self {
+    /// The shape functions of a cell at a reference position.
+    pub(crate) fn at(cell: &Reference, position: [f64; 3], weight: f64) -> Self {
         Self {
             weight,
-            shape: kind.shape(position),
-            derivatives: kind.shape_derivatives(position),
+            position,
+            shape: cell.shape(position),
+            derivatives: cell.shape_derivatives(position),
         }
     }
 
-    /// Tangents `t_j` of the cell whose nodes are at `nodes`.
-    pub(crate) fn tangents(&self, kind: CellKind, nodes: &[Vector3<f64>]) -> [Vector3<f64>; 3] {
+    /// Tangents `t_j` of the cell of `dimension` 2 or 3 whose nodes are at `nodes`.
+    pub(crate) fn tangents(&self, dimension: usize, nodes: &[Vector3<f64>]) -> [Vector3<f64>; 3] {
         let mut tangents = [Vector3::zeros(); 3];
         for (x, row) in nodes.iter().zip(&self.derivatives) {
             for (tangent, derivative) in tangents.iter_mut().zip(row) {
                 *tangent += x * *derivative;
             }
         }
-        if kind.dimension() == 2 {
+        if dimension == 2 {
             tangents[2] = Vector3::z();
         }
         tangents
     }
 
+    /// Where it is in space.
+    pub(crate) fn in_space(&self, nodes: &[Vector3<f64>]) -> Vector3<f64> {
+        let terms = nodes.iter().zip(&self.shape);
+        terms.map(|(x, shape)| x * *shape).sum()
+    }
+
     /// Gradients and volume in space.
     #[inline]
-    pub(crate) fn map(&self, kind: CellKind, nodes: &[Vector3<f64>]) -> Mapped {
-        let [t1, t2, t3] = self.tangents(kind, nodes);
+    pub(crate) fn map(&self, model: Model, nodes: &[Vector3<f64>]) -> Mapped {
+        let [t1, t2, t3] = self.tangents(model.dimension(), nodes);
         let det = t1.dot(&t2.cross(&t3));
         let reciprocal = [
             t2.cross(&t3) / det,
             t3.cross(&t1) / det,
             t1.cross(&t2) / det,
         ];
-        let mut gradients = [Vector3::zeros(); MOST_NODES];
-        for (gradient, [d1, d2, d3]) in gradients.iter_mut().zip(self.derivatives).take(nodes.len())
-        {
-            *gradient = reciprocal[0] * d1 + reciprocal[1] * d2 + reciprocal[2] * d3;
-        }
-        Mapped {
-            gradients,
+        let derivatives = self.derivatives.iter();
+        let gradients = derivatives
+            .map(|[d1, d2, d3]| reciprocal[0] * *d1 + reciprocal[1] * *d2 + reciprocal[2] * *d3);
+        let mut mapped = Mapped {
+            gradients: gradients.collect(),
+            hoop: Vec::new(),
             volume: self.weight * det,
+        };
+        if model == Model::Axisymmetric {
+            let radius = self.in_space(nodes).x;
+            mapped.hoop = self.shape.iter().map(|shape| shape / radius).collect();
+            mapped.volume *= 2.0 * PI * radius;
+        }
+        mapped
+    }
+}
+
+impl Mapped {
+    /// `d_a` of (B10), in 1/m.
+    #[inline]
+    pub(crate) fn divergence(&self, a: usize) -> Vector3<f64> {
+        match self.hoop.get(a) {
+            None => self.gradients[a],
+            Some(hoop) => self.gradients[a] + Vector3::x() * *hoop,
         }
     }
 }
 
-/// The quadrature rule of a cell: one point in simplices, where the strain is constant,
-/// and two Gauss points per axis in quadrilaterals and hexahedra.
-pub(crate) fn rule(kind: CellKind) -> &'static [Point] {
-    static TRI3: LazyLock<Vec<Point>> = LazyLock::new(|| simplex(CellKind::Tri3, 0.5));
-    static QUAD4: LazyLock<Vec<Point>> = LazyLock::new(|| gauss(CellKind::Quad4));
-    static TET4: LazyLock<Vec<Point>> = LazyLock::new(|| simplex(CellKind::Tet4, 1.0 / 6.0));
-    static HEX8: LazyLock<Vec<Point>> = LazyLock::new(|| gauss(CellKind::Hex8));
-    match kind {
-        CellKind::Tri3 => &TRI3,
-        CellKind::Quad4 => &QUAD4,
-        CellKind::Tet4 => &TET4,
-        CellKind::Hex8 => &HEX8,
+/// The quadrature rule of a cell within a model.
+///
+/// One point of a linear triangle will do where strain is constant, which it is not in a ring.
+pub(crate) fn rule(kind: CellKind, model: Model) -> &'static [Point] {
+    static RING: LazyLock<Vec<Point>> = LazyLock::new(|| {
+        let [near, far] = [1.0 / 6.0, 2.0 / 3.0];
+        let corners = [[near, near, 0.0], [far, near, 0.0], [near, far, 0.0]];
+        let point = |at| Point::at(CellKind::Tri3.reference(), at, 1.0 / 6.0);
+        corners.map(point).into()
+    });
+    match (kind, model) {
+        (CellKind::Tri3, Model::Axisymmetric) => &RING,
+        _ => &kind.reference().rule,
     }
 }
 
-fn simplex(kind: CellKind, volume: f64) -> Vec<Point> {
-    vec![Point::at(kind, kind.centre(), volume)]
+/// The points of a reference cell or facet.
+pub(super) fn points(cell: &Reference) -> Vec<Point> {
+    let point = |(at, weight)| Point::at(cell, at, weight);
+    match (cell.family, cell.dimension) {
+        (Family::Simplex, 2) if !cell.is_linear() => {
+            six_in_triangle().into_iter().map(point).collect()
+        }
+        (Family::Simplex, 3) if !cell.is_linear() => four_in_tetrahedron().map(point).into(),
+        (Family::Simplex, 2) => vec![point((cell.centre(), 0.5))],
+        (Family::Simplex, _) => vec![point((cell.centre(), 1.0 / 6.0))],
+        _ if cell.is_linear() => {
+            let scale = 1.0 / 3.0_f64.sqrt();
+            let corners = cell.nodes.iter();
+            corners
+                .map(|corner| point((corner.map(|x| x * scale), 1.0)))
+                .collect()
+        }
+        (_, axes) => three_per_axis(axes).into_iter().map(point).collect(),
+    }
 }
 
-fn gauss(kind: CellKind) -> Vec<Point> {
-    let scale = 1.0 / 3.0_f64.sqrt();
-    let corners = (0..kind.node_count()).map(|node| kind.corner(node));
-    corners
-        .map(|corner| Point::at(kind, corner.map(|x| x * scale), 1.0))
-        .collect()
-}
-
-/// A cell's quadrature points in space; those past the end of its [`rule`] are zero.
-pub(crate) fn mapped(mesh: &Mesh, cell: Cell<'_>) -> [Mapped; MOST_NODES] {
-    let positions = positions(mesh, cell.nodes);
-    let mut points = [Mapped::default(); MOST_NODES];
-    for (mapped, point) in points.iter_mut().zip(rule(cell.kind)) {
-        *mapped = point.map(cell.kind, &positions[..cell.nodes.len()]);
+fn three_per_axis(axes: usize) -> Vec<([f64; 3], f64)> {
+    let outer = 0.6_f64.sqrt();
+    let line = [(-outer, 5.0 / 9.0), (0.0, 8.0 / 9.0), (outer, 5.0 / 9.0)];
+    let mut points = vec![([0.0; 3], 1.0)];
+    for axis in 0..axes {
+        let along = |(at, weight): ([f64; 3], f64)| {
+            line.map(|(x, share)| {
+                let mut at = at;
+                at[axis] = x;
+                (at, weight * share)
+            })
+        };
+        points = points.into_iter().flat_map(along).collect();
     }
     points
 }
 
-/// Positions of a cell's nodes, in metre; entries past the last node are zero.
-pub(crate) fn positions(mesh: &Mesh, nodes: &[usize]) -> [Vector3<f64>; MOST_NODES] {
-    let mut positions = [Vector3::zeros(); MOST_NODES];
-    for (position, node) in positions.iter_mut().zip(nodes) {
-        *position = mesh.nodes[*node].into();
-    }
-    positions
+/// Two orbits of three points, exact to degree 4.
+fn six_in_triangle() -> Vec<([f64; 3], f64)> {
+    let root = 10.0_f64.sqrt();
+    let spread = (38.0 - 44.0 * 0.4_f64.sqrt()).sqrt();
+    let uneven = (213_125.0 - 53_320.0 * root).sqrt();
+    let orbits = [(spread, uneven), (-spread, -uneven)];
+    let orbit = |(spread, uneven): (f64, f64)| {
+        let near = (8.0 - root + spread) / 18.0;
+        let weight = (620.0 + uneven) / 3720.0 / 2.0;
+        let far = 1.0 - 2.0 * near;
+        [[near, near, 0.0], [far, near, 0.0], [near, far, 0.0]].map(|at| (at, weight))
+    };
+    orbits.into_iter().flat_map(orbit).collect()
+}
+
+/// Exact to degree 2.
+fn four_in_tetrahedron() -> [([f64; 3], f64); 4] {
+    let near = (5.0 - 5.0_f64.sqrt()) / 20.0;
+    let far = 1.0 - 3.0 * near;
+    let corner = |axis: usize| std::array::from_fn(|j| if j + 1 == axis { far } else { near });
+    [0, 1, 2, 3].map(|axis| (corner(axis), 1.0 / 24.0))
+}
+
+/// A cell's quadrature points in space.
+pub(crate) fn mapped(body: &Body, cell: Cell<'_>) -> Vec<Mapped> {
+    let positions = positions(&body.mesh, cell.nodes);
+    let points = rule(cell.kind, body.model).iter();
+    points
+        .map(|point| point.map(body.model, &positions))
+        .collect()
+}
+
+/// Positions of nodes, in metre.
+pub(crate) fn positions(mesh: &Mesh, nodes: &[usize]) -> Vec<Vector3<f64>> {
+    let positions = nodes.iter().map(|node| mesh.nodes[*node].into());
+    positions.collect()
 }
 
 impl Mesh {
-    /// Signed volume of a cell, in m³ (2D: area in m²); negative when it is inside out.
+    /// Signed volume of a cell, in m³ (2D: area in m², also of the section of a ring); negative
+    /// when it is inside out.
     #[must_use]
     pub fn volume(&self, cell: usize) -> f64 {
         let cell = self.cell(cell);
         let positions = positions(self, cell.nodes);
-        let positions = &positions[..cell.nodes.len()];
-        let points = rule(cell.kind).iter();
+        let points = cell.kind.reference().rule.iter();
         points
             .map(|point| {
-                let [t1, t2, t3] = point.tangents(cell.kind, positions);
+                let [t1, t2, t3] = point.tangents(cell.kind.dimension(), &positions);
                 point.weight * t1.dot(&t2.cross(&t3))
             })
             .sum()
@@ -163,7 +243,7 @@ mod tests {
     /// A cell whose nodes are those of the reference cell, moved by a fixed wave.
     fn distorted(kind: CellKind) -> Mesh {
         let nodes = (0..kind.node_count()).map(|node| {
-            let [x, y, z] = kind.corner(node);
+            let [x, y, z] = kind.position(node);
             let wave = |phase: f64| 0.1 * (1.3 * x + 2.1 * y + 0.7 * z + phase).sin();
             let depth = if kind.dimension() == 3 { 1.0 } else { 0.0 };
             [x + wave(0.0), y + wave(1.0), depth * (z + wave(2.0))]
@@ -173,12 +253,20 @@ mod tests {
         mesh
     }
 
+    fn model(kind: CellKind) -> Model {
+        match kind.dimension() {
+            2 => Model::PlaneStrain,
+            _ => Model::Solid,
+        }
+    }
+
     #[test]
     fn volumes_of_the_reference_cells_are_exact() {
-        let expected = [0.5, 4.0, 1.0 / 6.0, 8.0];
-        for (kind, expected) in CellKind::ALL.into_iter().zip(expected) {
+        let (sixth, half) = (1.0 / 6.0, 0.5);
+        let expected = [half, 4.0, sixth, 8.0, half, 4.0, 4.0, sixth, 8.0, 8.0];
+        for (kind, expected) in CellKind::all().zip(expected) {
             let nodes = (0..kind.node_count())
-                .map(|node| kind.corner(node))
+                .map(|node| kind.position(node))
                 .collect();
             let mut mesh = Mesh::new(kind.dimension(), nodes);
             mesh.push_cell(kind, &(0..kind.node_count()).collect::<Vec<_>>());
@@ -189,11 +277,11 @@ mod tests {
     #[test]
     fn gradients_are_exact_for_a_linear_field_on_a_distorted_cell() {
         let field = Vector3::new(3.0, -2.0, 5.0);
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let mesh = distorted(kind);
             let nodes = positions(&mesh, mesh.cell(0).nodes);
-            for point in rule(kind) {
-                let mapped = point.map(kind, &nodes[..kind.node_count()]);
+            for point in rule(kind, model(kind)) {
+                let mapped = point.map(model(kind), &nodes);
                 let terms = mapped.gradients.iter().zip(&nodes);
                 let gradient: Vector3<f64> = terms.map(|(g, x)| g * field.dot(x)).sum();
                 for axis in 0..kind.dimension() {
@@ -205,13 +293,14 @@ mod tests {
 
     #[test]
     fn the_integral_of_a_gradient_is_the_integral_of_the_normal_over_the_surface() {
-        // Divergence theorem ∫ ∇N_a dV = ∫ N_a n dA; Σ_a x_a·(…) = dimension × volume.
-        for kind in CellKind::ALL {
+        // Divergence theorem ∫ ∇N_a dV = ∫ N_a n dA; Σ_a x_a·(…) = dimension × volume. A curved
+        // tetrahedron has integrands of degree 3, one more than its points integrate.
+        for kind in CellKind::all().filter(|kind| *kind != CellKind::Tet10) {
             let mesh = distorted(kind);
             let nodes = positions(&mesh, mesh.cell(0).nodes);
-            let mut integral = [Vector3::zeros(); MOST_NODES];
-            for point in rule(kind) {
-                let mapped = point.map(kind, &nodes[..kind.node_count()]);
+            let mut integral = vec![Vector3::zeros(); kind.node_count()];
+            for point in rule(kind, model(kind)) {
+                let mapped = point.map(model(kind), &nodes);
                 for (sum, gradient) in integral.iter_mut().zip(&mapped.gradients) {
                     *sum += gradient * mapped.volume;
                 }

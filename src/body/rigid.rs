@@ -11,7 +11,7 @@
 
 use nalgebra::{SVector, Vector3};
 
-use super::Body;
+use super::{Body, Model};
 
 /// Lever arms below this fraction of the part's size hold no rotation: in the stiffness
 /// matrix its square is all that is left of them.
@@ -86,7 +86,10 @@ impl<'a> Part<'a> {
     /// What the prescribed components hold.
     fn held(&self, nodes: &[usize], prescribed: &[Option<f64>]) -> Held {
         let mut held = Held::default();
-        if self.body.mesh.dimension == 2 {
+        if self.body.model == Model::Axisymmetric {
+            // A ring can only move along its axis without strain.
+            held.hold(&[0, 2, 3, 4, 5].map(unit));
+        } else if self.body.mesh.dimension == 2 {
             // The plane itself holds the motions that leave it.
             held.hold(&[2, 3, 4].map(unit));
         }
@@ -175,7 +178,7 @@ mod tests {
     /// One hexahedron of edge 2 between −1 and 1.
     fn cube() -> Body {
         let kind = CellKind::Hex8;
-        let nodes = (0..8).map(|node| kind.corner(node)).collect();
+        let nodes = (0..8).map(|node| kind.position(node)).collect();
         let mut mesh = Mesh::new(3, nodes);
         mesh.push_cell(kind, &[0, 1, 2, 3, 4, 5, 6, 7]);
         body(mesh, Model::Solid, 0.3)

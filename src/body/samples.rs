@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used)]
 
+use nalgebra::Vector3;
+
 use super::{
     Body, CellKind, Facet, Group, Material, Mesh, Model, Support, box_mesh, graded, rectangle,
 };
@@ -49,7 +51,7 @@ pub(crate) fn support(nodes: &[usize], axes: &[usize]) -> Support {
     }
 }
 
-/// The same block with every inner node moved by a fifth of a cell or less.
+/// The same block with every inner corner moved by a fifth of a cell or less, its sides straight.
 pub(crate) fn distorted(kind: CellKind) -> Body {
     let mut body = block(kind);
     let axes = kind.dimension();
@@ -63,7 +65,24 @@ pub(crate) fn distorted(kind: CellKind) -> Body {
             }
         }
     }
+    straighten(&mut body.mesh);
     body
+}
+
+/// Moves the nodes between corners to where straight sides have them.
+pub(crate) fn straighten(mesh: &mut Mesh) {
+    for index in 0..mesh.cell_count() {
+        let kind = mesh.cell(index).kind;
+        let linear = kind.linear();
+        let nodes = mesh.cell(index).nodes.to_vec();
+        for local in linear.node_count()..nodes.len() {
+            let shape = linear.reference().shape(kind.position(local));
+            let corners = nodes.iter().zip(shape);
+            let at = corners.map(|(node, n)| Vector3::from(mesh.nodes[*node]) * n);
+            let at: Vector3<f64> = at.sum();
+            mesh.nodes[nodes[local]] = at.into();
+        }
+    }
 }
 
 /// Facets of a named group.

@@ -5,15 +5,20 @@
 //! ```
 //!
 //! per pair of nodes, from `∫ λ div u div v + 2 μ ε(u) : ε(v) dV`. Nearly incompressible
-//! cells put a mean in place of `λ A_ab` ((B4), (B5)).
+//! cells put a mean in place of `λ A_ab` ((B4), (B5)). Rings strain around the axis too:
+//!
+//! ```text
+//! (B11)  ε_θ = u_r / r:   λ ∫ d_a d_bᵀ dV  for  λ A_ab  with d of (B10),
+//!                         and K_ab + 2 μ ∫ N_a N_b / r² dV e_r e_rᵀ
+//! ```
 
 use nalgebra::Matrix3;
 
-use super::Body;
 use super::dilatation::{Dilatation, Patches, mean_gradients};
 use super::material::Lame;
-use super::quadrature::{Mapped, mapped, rule};
+use super::quadrature::{Mapped, mapped};
 use super::sparsity::BlockMatrix;
+use super::{Body, Model};
 
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
 /// `dimension · node + axis` with ascending columns.
@@ -52,16 +57,21 @@ fn add_cell(body: &Body, index: usize, matrix: &mut BlockMatrix) {
     let dilatation = Dilatation::of(cell.kind, body.model, material);
     let depth = body.model.depth();
 
+    let ring = body.model == Model::Axisymmetric;
+
     let count = cell.nodes.len();
-    let points = &mapped(&body.mesh, cell)[..rule(cell.kind).len()];
+    let points = &mapped(body, cell);
     let (volume, mean) = mean_gradients(points);
 
     for a in 0..count {
         for b in 0..=a {
             let product = gradient_product(points, a, b);
-            let shear_part =
+            let hoop = hoop_product(points, a, b);
+            let mut shear_part =
                 (product.transpose() + Matrix3::from_diagonal_element(product.trace())) * shear;
+            shear_part[(0, 0)] += 2.0 * shear * hoop;
             let volume_part = match dilatation {
+                Dilatation::Pointwise if ring => divergence_product(points, a, b) * lambda,
                 Dilatation::Pointwise => product * lambda,
                 Dilatation::CellMean => mean[a] * mean[b].transpose() * (lambda * volume),
                 Dilatation::NodeMean => Matrix3::zeros(),
@@ -85,6 +95,22 @@ fn gradient_product(points: &[Mapped], a: usize, b: usize) -> Matrix3<f64> {
     product
 }
 
+/// `∫ d_a d_bᵀ dV` (B11).
+fn divergence_product(points: &[Mapped], a: usize, b: usize) -> Matrix3<f64> {
+    let product =
+        |point: &Mapped| point.divergence(a) * point.divergence(b).transpose() * point.volume;
+    points.iter().map(product).sum()
+}
+
+/// `∫ N_a N_b / r² dV` (B11), zero but for rings.
+fn hoop_product(points: &[Mapped], a: usize, b: usize) -> f64 {
+    let product = |point: &Mapped| match point.hoop.as_slice() {
+        [] => 0.0,
+        hoop => hoop[a] * hoop[b] * point.volume,
+    };
+    points.iter().map(product).sum()
+}
+
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
@@ -98,7 +124,7 @@ mod tests {
     /// Distorted blocks of every kind in every model, with and without averaged dilatation.
     fn bodies() -> Vec<Body> {
         let mut bodies = Vec::new();
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             for poisson in [0.3, 0.4999, -0.5] {
                 let mut body = distorted(kind);
                 body.materials[0].poisson = poisson;
@@ -220,7 +246,7 @@ mod tests {
     fn a_bar_under_uniform_tension_stretches_by_its_modulus() {
         // u_x = σ x / E', u_y = −ν' σ y / E' with (E', ν') = (E, ν) in 3D and plane stress,
         // (E/(1−ν²), ν/(1−ν)) in plane strain; σ = 3, E = 10.
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             for poisson in [0.3, 0.4999] {
                 let mut body = bar(kind);
                 body.materials[0].poisson = poisson;
@@ -249,7 +275,7 @@ mod tests {
     #[test]
     fn cells_of_two_materials_in_a_row_stretch_each_by_its_own_modulus() {
         // Springs in series: halves of 1 m with E = 10 and 30, ν = 0: 3/10 + 3/30 = 0.4 m.
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let mut body = bar(kind);
             body.materials = [10.0, 30.0]
                 .map(|young| crate::body::Material {

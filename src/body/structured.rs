@@ -3,6 +3,8 @@
 //! Their groups: facets `left` and `right` (least and greatest x), `bottom` and `top`
 //! (y in 2D, z in 3D), in 3D also `front` and `back` (y), and the cells, `body`.
 //!
+//! Quadratic cells have straight sides, with their nodes half way.
+//!
 //! Simplices cut every quadrilateral along the same diagonal and every hexahedron into
 //! the same six tetrahedra (Kuhn): that conforms for any counts, and all nodes inside a
 //! face carry the same area. Alternating diagonals would give neighbours the shares 2:1,
@@ -14,14 +16,17 @@ use crate::error::{Error, check_finite};
 /// Most cells that a generator makes; beyond this the input is taken for a slip of the pen.
 const MOST_CELLS: usize = 50_000_000;
 
+/// The two triangles of a quadrilateral.
+const TRIANGLES: [&[usize]; 2] = [&[0, 1, 2], &[0, 2, 3]];
+
 /// The six tetrahedra of a hexahedron, one per path from node 0 to node 6 along its edges.
-const KUHN: [[usize; 4]; 6] = [
-    [0, 1, 2, 6],
-    [0, 5, 1, 6],
-    [0, 2, 3, 6],
-    [0, 3, 7, 6],
-    [0, 4, 5, 6],
-    [0, 7, 4, 6],
+const KUHN: [&[usize]; 6] = [
+    &[0, 1, 2, 6],
+    &[0, 5, 1, 6],
+    &[0, 2, 3, 6],
+    &[0, 3, 7, 6],
+    &[0, 4, 5, 6],
+    &[0, 7, 4, 6],
 ];
 
 /// Coordinates of `count` cells between `start` and `end`, in metre, whose sizes grow
@@ -80,29 +85,14 @@ fn geometric(start: f64, end: f64, count: usize, grading: f64) -> Vec<f64> {
 ///
 /// # Errors
 ///
-/// Coordinates that are not finite, not increasing or fewer than two; a kind other than
-/// [`CellKind::Quad4`] and [`CellKind::Tri3`]; too many cells.
+/// Coordinates that are not finite, not increasing or fewer than two; a kind that is not plane;
+/// too many cells.
 pub fn rectangle(xs: &[f64], ys: &[f64], kind: CellKind) -> Result<Mesh, Error> {
     if kind.dimension() != 2 {
         return Err(wrong_dimension(kind, 2));
     }
     check_axes(&[("x", xs), ("y", ys)])?;
-    let rows = ys
-        .iter()
-        .flat_map(|y| xs.iter().map(move |x| [*x, *y, 0.0]));
-    let mut mesh = Mesh::new(2, rows.collect());
-    for j in 0..ys.len() - 1 {
-        for i in 0..xs.len() - 1 {
-            let low = j * xs.len() + i;
-            let high = low + xs.len();
-            if kind == CellKind::Quad4 {
-                mesh.push_cell(kind, &[low, low + 1, high + 1, high]);
-            } else {
-                mesh.push_cell(kind, &[low, low + 1, high + 1]);
-                mesh.push_cell(kind, &[low, high + 1, high]);
-            }
-        }
-    }
+    let mut mesh = cells([xs, ys, &[0.0]], kind);
     name_groups(&mut mesh, &[("left", "right"), ("bottom", "top")]);
     Ok(mesh)
 }
@@ -111,39 +101,110 @@ pub fn rectangle(xs: &[f64], ys: &[f64], kind: CellKind) -> Result<Mesh, Error> 
 ///
 /// # Errors
 ///
-/// Coordinates that are not finite, not increasing or fewer than two; a kind other than
-/// [`CellKind::Hex8`] and [`CellKind::Tet4`]; too many cells.
+/// Coordinates that are not finite, not increasing or fewer than two; a kind that is not solid;
+/// too many cells.
 pub fn box_mesh(xs: &[f64], ys: &[f64], zs: &[f64], kind: CellKind) -> Result<Mesh, Error> {
     if kind.dimension() != 3 {
         return Err(wrong_dimension(kind, 3));
     }
     check_axes(&[("x", xs), ("y", ys), ("z", zs)])?;
-    let plane = |z: f64| {
-        ys.iter()
-            .flat_map(move |y| xs.iter().map(move |x| [*x, *y, z]))
-    };
-    let mut mesh = Mesh::new(3, zs.iter().flat_map(|z| plane(*z)).collect());
-    let (row, layer) = (xs.len(), xs.len() * ys.len());
-    for k in 0..zs.len() - 1 {
-        for j in 0..ys.len() - 1 {
-            for i in 0..row - 1 {
-                let low = k * layer + j * row + i;
-                let floor = [low, low + 1, low + row + 1, low + row];
-                let hex: [usize; 8] =
-                    std::array::from_fn(|a| floor[a % 4] + if a < 4 { 0 } else { layer });
-                if kind == CellKind::Hex8 {
-                    mesh.push_cell(kind, &hex);
-                } else {
-                    for tet in KUHN {
-                        mesh.push_cell(kind, &tet.map(|a| hex[a]));
-                    }
+    let mut mesh = cells([xs, ys, zs], kind);
+    let sides = [("left", "right"), ("front", "back"), ("bottom", "top")];
+    name_groups(&mut mesh, &sides);
+    Ok(mesh)
+}
+
+/// The cells between grid lines, x fastest; an axis of one line has none.
+fn cells(axes: [&[f64]; 3], kind: CellKind) -> Mesh {
+    let lattice = Lattice::new(axes, kind);
+    let mut mesh = Mesh::new(kind.dimension(), lattice.positions());
+    let layers = axes.map(|axis| (axis.len() - 1).max(1));
+    for k in 0..layers[2] {
+        for j in 0..layers[1] {
+            for i in 0..layers[0] {
+                for corners in parts(kind) {
+                    mesh.push_cell(kind, &lattice.cell([i, j, k], kind, corners));
                 }
             }
         }
     }
-    let sides = [("left", "right"), ("front", "back"), ("bottom", "top")];
-    name_groups(&mut mesh, &sides);
-    Ok(mesh)
+    mesh.drop_lone_nodes();
+    mesh
+}
+
+/// Corners of the cells that share a quadrilateral or hexahedron; none if it is one itself.
+fn parts(kind: CellKind) -> &'static [&'static [usize]] {
+    match (kind.is_tensor_product(), kind.dimension()) {
+        (true, _) => &[&[]],
+        (false, 2) => &TRIANGLES,
+        (false, _) => &KUHN,
+    }
+}
+
+/// The points where nodes may stand: those of the grid, for quadratic cells also half way.
+struct Lattice {
+    lines: [Vec<f64>; 3],
+    /// Steps of the lattice per cell.
+    steps: usize,
+}
+
+impl Lattice {
+    fn new(axes: [&[f64]; 3], kind: CellKind) -> Self {
+        let halved = |axis: &[f64]| {
+            let pairs = axis.windows(2);
+            let inner = pairs.flat_map(|pair| [(pair[0] + pair[1]) / 2.0, pair[1]]);
+            axis.first().copied().into_iter().chain(inner).collect()
+        };
+        if kind.is_linear() {
+            let lines = axes.map(<[f64]>::to_vec);
+            return Self { lines, steps: 1 };
+        }
+        Self {
+            lines: axes.map(halved),
+            steps: 2,
+        }
+    }
+
+    fn positions(&self) -> Vec<[f64; 3]> {
+        let [xs, ys, zs] = &self.lines;
+        let row = |y: f64, z: f64| xs.iter().map(move |x| [*x, y, z]);
+        let layer = |z: f64| ys.iter().flat_map(move |y| row(*y, z));
+        zs.iter().flat_map(|z| layer(*z)).collect()
+    }
+
+    /// Lattice points of a cell's nodes; `corners` are those of a simplex in its block.
+    fn cell(&self, block: [usize; 3], kind: CellKind, corners: &[usize]) -> Vec<usize> {
+        let corner = |corner: usize| {
+            let at = CellKind::Hex8.position(corner);
+            at.map(|c| (c + 1.0) / 2.0)
+        };
+        let within = |node: usize| {
+            let at = kind.position(node);
+            let Some((first, rest)) = corners.split_first() else {
+                return at.map(|c| (c + 1.0) / 2.0);
+            };
+            let origin = corner(*first);
+            let mut within = origin;
+            for (share, other) in at.into_iter().zip(rest) {
+                let other = corner(*other);
+                for axis in 0..3 {
+                    within[axis] += share * (other[axis] - origin[axis]);
+                }
+            }
+            within
+        };
+        let [row, column, _] = self.lines.each_ref().map(Vec::len);
+        let number = |node: usize| {
+            let within = within(node);
+            // In the plane the third coordinate of a block means nothing.
+            let [i, j, k] = std::array::from_fn(|axis| match axis < kind.dimension() {
+                true => self.steps * block[axis] + (within[axis] * self.steps as f64) as usize,
+                false => 0,
+            });
+            (k * column + j) * row + i
+        };
+        (0..kind.node_count()).map(number).collect()
+    }
 }
 
 fn wrong_dimension(kind: CellKind, expected: usize) -> Error {
@@ -259,7 +320,7 @@ mod tests {
     #[test]
     fn cells_fill_the_box_and_sides_have_their_area_and_direction() {
         let (xs, ys, zs) = ([0.0, 1.0, 3.0], [0.0, 2.0], [-1.0, 0.0, 4.0]);
-        for kind in CellKind::ALL {
+        for kind in CellKind::all() {
             let solid = kind.dimension() == 3;
             let mesh = if solid {
                 box_mesh(&xs, &ys, &zs, kind).unwrap()

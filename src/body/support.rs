@@ -1,17 +1,31 @@
 //! Prescribed displacements, component by component.
 
-use super::{Body, Support};
+use super::{Body, Support, held_by_axis};
 use crate::error::Error;
 
 /// Prescribed displacement per unknown `dimension · node + axis`, in metre; `None` where free.
 ///
+/// Nodes on the axis of an axisymmetric body cannot leave it, whether a support says so or not.
+///
 /// # Errors
 ///
 /// [`Error::ContradictorySupports`] if two supports give one component different values
-/// (equal ones are fine), [`Error::UnknownIndex`] for a node that does not exist.
+/// (equal ones are fine), [`Error::UnknownIndex`] for a node that does not exist,
+/// [`Error::OutOfRange`] for a support that moves a node off the axis.
 pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
     let mesh = &body.mesh;
-    prescribed_by(&body.supports, mesh.dimension, mesh.nodes.len())
+    let mut prescribed = prescribed_by(&body.supports, mesh.dimension, mesh.nodes.len())?;
+    for unknown in held_by_axis(body) {
+        if let Some(value) = prescribed[unknown].filter(|value| *value != 0.0) {
+            return Err(Error::OutOfRange {
+                place: format!("{}: radial displacement on the axis", body.name),
+                value,
+                accepted: "0 at nodes on the axis",
+            });
+        }
+        prescribed[unknown] = Some(0.0);
+    }
+    Ok(prescribed)
 }
 
 /// The same by some supports of a body of `nodes` nodes that may move along `axes` axes.

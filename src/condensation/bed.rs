@@ -89,6 +89,7 @@ impl Bed {
             self.contacts.push(ContactNode {
                 body: 0,
                 node,
+                own: vec![(node, 1.0)],
                 opposite: None,
                 pair: 0,
                 position,

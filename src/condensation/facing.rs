@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::Vector3;
 
 use super::{ContactNode, ContactPair, Obstacle};
-use crate::body::{Facet, FacetGeometry, Mesh};
+use crate::body::{Body, Facet, FacetGeometry};
 use crate::error::Error;
 
 /// Cosine between a facet's normal and the direction to the obstacle, above which it faces it.
@@ -24,18 +24,18 @@ const SMOOTH: f64 = 0.5;
 
 /// The facets of the body's boundary, found by their nodes.
 pub(super) struct Boundary<'a> {
-    mesh: &'a Mesh,
+    body: &'a Body,
     facets: Vec<Facet>,
     index_of: HashMap<Vec<usize>, usize>,
 }
 
 impl<'a> Boundary<'a> {
-    pub(super) fn new(mesh: &'a Mesh) -> Self {
-        let facets = mesh.boundary_facets();
+    pub(super) fn new(body: &'a Body) -> Self {
+        let facets = body.mesh.boundary_facets();
         let keyed = facets.iter().enumerate();
         let index_of = keyed.map(|(index, facet)| (key(facet), index)).collect();
         Self {
-            mesh,
+            body,
             facets,
             index_of,
         }
@@ -64,7 +64,7 @@ impl<'a> Boundary<'a> {
     ) -> Result<Vec<(Facet, FacetGeometry)>, Error> {
         let mut facing = Vec::new();
         for facet in self.outward(&pair.facets, &format!("{}.facets", pair.place))? {
-            let geometry = self.mesh.facet_geometry(&facet);
+            let geometry = self.body.facet_geometry(&facet);
             let seen_from = obstacle.closest(&pair.place, self.centre(&facet))?;
             if cosine(geometry.normal, seen_from.direction) > FACING {
                 facing.push((facet, geometry));
@@ -81,7 +81,7 @@ impl<'a> Boundary<'a> {
 
     /// Why a facet is not one of the boundary.
     fn refuse(&self, facet: &Facet, place: String) -> Error {
-        let cells = match self.mesh.orient(std::slice::from_ref(facet)) {
+        let cells = match self.body.mesh.orient(std::slice::from_ref(facet)) {
             Err(Error::FacetOwners { cells, .. }) => cells,
             _ => 0,
         };
@@ -96,7 +96,7 @@ impl<'a> Boundary<'a> {
     fn centre(&self, facet: &Facet) -> [f64; 3] {
         let nodes = facet.nodes.iter();
         let sum: Vector3<f64> = nodes
-            .map(|&node| Vector3::from(self.mesh.nodes[node]))
+            .map(|&node| Vector3::from(self.body.mesh.nodes[node]))
             .sum();
         (sum / facet.nodes.len() as f64).into()
     }
@@ -119,7 +119,7 @@ impl<'a> Boundary<'a> {
                 .filter_map(|node| contact_of_node.get(node))
             {
                 let contact = &mut contacts[*contact];
-                let normal = self.mesh.facet_geometry(facet).normal;
+                let normal = self.body.facet_geometry(facet).normal;
                 contact.rim |= cosine(normal, contact.frame[0]) > SMOOTH;
             }
         }

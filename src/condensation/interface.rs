@@ -5,8 +5,8 @@
 //!       û = Σ_k B_k v̂_k + given,   G = Σ_k B_k G_k B_kᵀ,   forces on body k: B_kᵀ t
 //! ```
 //!
-//! A contact's own node enters with weight one, a node of the opposite side with minus
-//! its mortar weight. A row of B_k is that weight times the contact's direction, in the
+//! A contact's own node enters with weight one, or the nodes around it with those of (C14), a node
+//! of the opposite side with minus its mortar weight. A row of B_k is that weight times the contact's direction, in the
 //! axes of the node.
 
 use std::collections::BTreeMap;
@@ -173,8 +173,8 @@ fn touches(surface: &ContactSurface, body: usize) -> (Vec<usize>, BTreeMap<usize
         of_node.push((contact, weight));
     };
     for (index, contact) in surface.nodes.iter().enumerate() {
-        if contact.body == body {
-            touch(contact.node, index, 1.0);
+        for &(node, weight) in contact.own.iter().filter(|_| contact.body == body) {
+            touch(node, index, weight);
         }
         if let Some(opposite) = contact.opposite.as_ref().filter(|side| side.body == body) {
             for &(node, weight) in &opposite.nodes {

@@ -11,6 +11,7 @@
 //! | step | file |
 //! |---|---|
 //! | where the bodies may touch what | `surface`, `frame` |
+//! | corners and the nodes around them (C14) | `footing` |
 //! | a rigid obstacle | `obstacle_contacts`: `obstacle`, `facing` |
 //! | another surface | `paired` |
 //! | what a deformable other side is to the contact nodes (C7)–(C10) | `mortar` |
@@ -31,6 +32,7 @@ mod elimination_tree;
 mod facing;
 mod factor;
 mod floating;
+mod footing;
 mod frame;
 mod frames;
 mod grounding;

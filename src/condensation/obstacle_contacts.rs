@@ -1,11 +1,13 @@
-//! The contacts of a pair with a rigid obstacle, one per node of the facets that face it.
+//! The contacts of a pair with a rigid obstacle, one per corner of the facets that face it.
+//!
+//! Beside an axisymmetric body an obstacle goes around the axis: a plane is a cone, or a disc, and a
+//! circle a ball. What stands on the axis sees only along it, to the apex of a cone.
 
-use std::collections::HashMap;
-
+use super::footing::{Footing, footings, held_axes};
 use super::frame::Stance;
 use super::surface::{Bodies, PairSurface};
-use super::{ContactNode, ContactPair, Obstacle};
-use crate::body::{Body, Facet, FacetGeometry};
+use super::{Closest, ContactNode, ContactPair, Obstacle};
+use crate::body::{Axis, Body};
 use crate::error::Error;
 
 /// The contacts of a pair with a rigid obstacle.
@@ -15,11 +17,19 @@ pub(super) fn on_obstacle(
     obstacle: &Obstacle,
 ) -> Result<PairSurface, Error> {
     let (body, boundary) = (&scene.bodies[pair.body], &scene.boundaries[pair.body]);
-    let prescribed = &scene.prescribed[pair.body];
+    let view = View {
+        body,
+        pair,
+        obstacle,
+        axis: Axis::of(body),
+    };
+    view.check()?;
     let facing = boundary.facing(pair, obstacle)?;
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
-    for (node, area) in areas(body, &facing) {
-        match contact(body, pair, obstacle, node, area, prescribed)? {
+    let gap = |node, position| Ok(view.closest(node, position)?.distance);
+    for footing in footings(body, &facing, gap)? {
+        let node = footing.node;
+        match view.contact(footing, &scene.prescribed[pair.body])? {
             Some(contact) => contacts.push(contact),
             None => left_out.push(node),
         }
@@ -33,82 +43,113 @@ pub(super) fn on_obstacle(
     })
 }
 
-/// Nodes of the facing facets in the order they are met, with their area in m².
-fn areas(body: &Body, facing: &[(Facet, FacetGeometry)]) -> Vec<(usize, f64)> {
-    let depth = body.model.depth();
-    let mut areas: Vec<(usize, f64)> = Vec::new();
-    let mut place_of_node = HashMap::new();
-    for (facet, geometry) in facing {
-        for (&node, weight) in facet.nodes.iter().zip(geometry.weights) {
-            let place = *place_of_node.entry(node).or_insert(areas.len());
-            if place == areas.len() {
-                areas.push((node, 0.0));
-            }
-            areas[place].1 += weight * depth;
-        }
-    }
-    areas
+/// An obstacle, as a body sees it.
+struct View<'a> {
+    body: &'a Body,
+    pair: &'a ContactPair,
+    obstacle: &'a Obstacle,
+    axis: Option<Axis>,
 }
 
-/// The contact of a node; none if a support holds its normal.
-fn contact(
-    body: &Body,
-    pair: &ContactPair,
-    obstacle: &Obstacle,
-    node: usize,
-    area: f64,
-    prescribed: &[Option<f64>],
-) -> Result<Option<ContactNode>, Error> {
-    let dimension = body.mesh.dimension;
-    let position = body.mesh.nodes[node];
-    let closest = obstacle.closest(&pair.place, position)?;
-    let mut held = [None; 3];
-    held[..dimension].copy_from_slice(&prescribed[node * dimension..(node + 1) * dimension]);
-    let stance = Stance::new(dimension, closest.direction, held.map(|u| u.is_some()));
-    let (frame, kept) = match stance {
-        Stance::Held => return Ok(None),
-        Stance::Free { frame, kept } => (frame, kept),
-        Stance::Askew => {
-            return Err(Error::SupportAskew {
+impl View<'_> {
+    /// Refuses what does not go around the axis.
+    fn check(&self) -> Result<(), Error> {
+        match (self.axis, self.obstacle) {
+            (Some(_), Obstacle::Cylinder { center, .. }) if center[0] != 0.0 => {
+                Err(Error::OutOfRange {
+                    place: format!("{}.obstacle.center[0]", self.pair.place),
+                    value: center[0],
+                    accepted: "0: beside an axisymmetric body a circle is a ball on the axis",
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The obstacle from a position, for the contact at `node`.
+    fn closest(&self, node: usize, position: [f64; 3]) -> Result<Closest, Error> {
+        let closest = self.obstacle.closest(&self.pair.place, position)?;
+        let node = self.body.mesh.nodes[node];
+        let along = closest.direction[1];
+        if along == 0.0 || !self.axis.is_some_and(|axis| axis.holds(node)) {
+            return Ok(closest);
+        }
+        Ok(Closest {
+            distance: closest.distance / along.abs(),
+            direction: [0.0, along.signum(), 0.0],
+        })
+    }
+
+    /// The contact of a footing; none if a support holds its normal.
+    fn contact(
+        &self,
+        footing: Footing,
+        prescribed: &[Option<f64>],
+    ) -> Result<Option<ContactNode>, Error> {
+        let (pair, node) = (self.pair, footing.node);
+        let dimension = self.body.mesh.dimension;
+        let position = self.body.mesh.nodes[node];
+        let closest = self.closest(node, position)?;
+        let given = |node: usize, axis: usize| match axis < dimension {
+            true => prescribed[node * dimension + axis],
+            false => None,
+        };
+        let held = |node, axis| given(node, axis).is_some();
+        let supported = held_axes(node, &footing.own, closest.direction, held);
+        let stance = Stance::new(dimension, closest.direction, supported);
+        let (frame, kept) = match stance {
+            Stance::Held => return Ok(None),
+            Stance::Free { frame, kept } => (frame, kept),
+            Stance::Askew => {
+                return Err(Error::SupportAskew {
+                    place: pair.place.clone(),
+                    node,
+                    position,
+                    normal: closest.direction,
+                    axes: axes(supported),
+                });
+            }
+        };
+        let own = footing.own.iter().map(|(node, _)| *node);
+        let across = (0..dimension).filter(|axis| frame[0][*axis] == 0.0);
+        let moved = own.flat_map(|node| across.clone().map(move |axis| (axis, given(node, axis))));
+        let mut moved = moved.filter_map(|(axis, u)| Some((axis, u.filter(|u| *u != 0.0)?)));
+        if let (Some((axis, displacement)), true) = (moved.next(), pair.friction > 0.0) {
+            return Err(Error::DraggedContact {
                 place: pair.place.clone(),
                 node,
                 position,
-                normal: closest.direction,
-                axes: axes(&held),
+                friction: pair.friction,
+                displacement,
+                axis: AXES[axis],
             });
         }
-    };
-    let moved = held.iter().position(|u| u.is_some_and(|u| u != 0.0));
-    if let (Some(axis), true) = (moved, pair.friction > 0.0) {
-        return Err(Error::DraggedContact {
-            place: pair.place.clone(),
+        let initial_gap = match footing.own.as_slice() {
+            [_] => closest.distance,
+            _ => footing.gap,
+        };
+        Ok(Some(ContactNode {
+            body: pair.body,
             node,
+            own: footing.own,
+            opposite: None,
+            pair: 0,
             position,
-            friction: pair.friction,
-            displacement: held[axis].unwrap_or_default(),
-            axis: AXES[axis],
-        });
+            frame,
+            tangents: if pair.friction == 0.0 { 0 } else { kept },
+            initial_gap,
+            area: footing.area * self.body.model.depth(),
+            second: false,
+            rim: false,
+        }))
     }
-    Ok(Some(ContactNode {
-        body: pair.body,
-        node,
-        opposite: None,
-        pair: 0,
-        position,
-        frame,
-        tangents: if pair.friction == 0.0 { 0 } else { kept },
-        initial_gap: closest.distance,
-        area,
-        second: false,
-        rim: false,
-    }))
 }
 
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// The supported axes in words.
-fn axes(held: &[Option<f64>; 3]) -> String {
-    let named = AXES.iter().zip(held).filter(|(_, u)| u.is_some());
+fn axes(held: [bool; 3]) -> String {
+    let named = AXES.iter().zip(held).filter(|(_, held)| *held);
     let named: Vec<String> = named.map(|(axis, _)| axis.to_string()).collect();
     named.join(" and ")
 }
@@ -118,7 +159,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::samples::{block, facets};
-    use crate::body::{CellKind, Model, Support, prescribed};
+    use crate::body::{CellKind, Facet, Model, Support, prescribed};
     use crate::condensation::{ContactSurface, Opposite};
 
     /// A plane below the block, 0.25 m away, and the pair of the named sides with it.

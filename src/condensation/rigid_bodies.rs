@@ -124,11 +124,11 @@ fn contact_modes(
 
 /// Relative displacement of a contact, in global axes, under one mode of body `index`.
 fn moved(contact: &ContactNode, index: usize, mode: &[f64], axes: usize) -> [f64; 3] {
-    let own = (contact.body == index).then_some((contact.node, 1.0));
+    let own = contact.own.iter().filter(|_| contact.body == index);
     let opposite = contact.opposite.iter().filter(|side| side.body == index);
     let opposite = opposite.flat_map(|side| side.nodes.iter().map(|&(node, w)| (node, -w)));
     let mut moved = [0.0; 3];
-    for (node, weight) in own.into_iter().chain(opposite) {
+    for (node, weight) in own.copied().chain(opposite) {
         for (axis, sum) in moved[..axes].iter_mut().enumerate() {
             *sum += weight * mode[node * axes + axis];
         }

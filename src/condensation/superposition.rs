@@ -161,5 +161,8 @@ fn displacements_of(body: &Body, moves: impl Fn(usize) -> bool) -> Vec<Option<f6
             }
         }
     }
+    for unknown in body::held_by_axis(body) {
+        prescribed[unknown] = Some(0.0);
+    }
     prescribed
 }

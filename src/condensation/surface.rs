@@ -4,6 +4,9 @@
 //! area of node i    Σ ∫ N_i dA        over the facing facets of its pair
 //! initial gap       signed distance from the node to the obstacle
 //! ```
+//!
+//! Contacts stand at corners; those of quadratic facets move with the nodes around, (C14) in
+//! `footing`, and their gaps are means. Areas of axisymmetric bodies go around the axis.
 
 use super::Obstacle;
 use super::facing::Boundary;
@@ -54,13 +57,16 @@ pub struct OppositeNodes {
     pub nodes: Vec<(usize, f64)>,
 }
 
-/// One node of the contact surface, facing the other side.
+/// One corner of the contact surface, facing the other side.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactNode {
     /// Index of the body.
     pub body: usize,
-    /// Node of its mesh.
+    /// Node of its mesh where it stands.
     pub node: usize,
+    /// Nodes of the body that it moves with and their weights, which add up to one: its own
+    /// node alone on linear facets, those around it on quadratic ones.
+    pub own: Vec<(usize, f64)>,
     /// The other side; none if that is a rigid obstacle.
     pub opposite: Option<OppositeNodes>,
     /// Index of the contact pair.
@@ -74,12 +80,27 @@ pub struct ContactNode {
     pub tangents: usize,
     /// Distance along the normal to the other side before loading, in metre.
     pub initial_gap: f64,
-    /// Tributary area, in m² (2D: m² for the body's depth).
+    /// Tributary area, in m² (plane bodies: for their depth, axisymmetric ones: of the ring).
     pub area: f64,
     /// It stands on the second surface of its pair, which is much the softer one.
     pub second: bool,
     /// The body's surface goes on beyond the assumed contact surface here.
     pub rim: bool,
+}
+
+impl ContactNode {
+    /// Where its displacement is measured and its force acts on its own body, whose nodes are at
+    /// `nodes`: the mean of those that it moves with, in metre.
+    #[must_use]
+    pub fn centre(&self, nodes: &[[f64; 3]]) -> [f64; 3] {
+        let mut centre = [0.0; 3];
+        for &(node, weight) in &self.own {
+            for (sum, x) in centre.iter_mut().zip(nodes[node]) {
+                *sum += weight * x;
+            }
+        }
+        centre
+    }
 }
 
 /// The contact nodes in the order of the contact problem, and what was left out.
@@ -124,7 +145,7 @@ impl ContactSurface {
             check_length(&place, unknowns, prescribed.len())?;
         }
         let mut surface = Self::default();
-        let boundaries = bodies.iter().map(|body| Boundary::new(&body.mesh));
+        let boundaries = bodies.iter().map(Boundary::new);
         let boundaries: Vec<Boundary> = boundaries.collect();
         let scene = Bodies {
             bodies,

@@ -5,11 +5,14 @@
 //!       Σ f + Σ c + Σ s = 0,   Σ x × (f + c + s) = 0
 //! ```
 //!
-//! Where a displacement is free, `s` must vanish: what is left of it is the residual.
+//! Where a displacement is free, `s` must vanish: what is left of it is the residual. On an
+//! axisymmetric body nodal forces are those of whole rings: across the axis they are no resultant,
+//! and only the sums along it have to vanish.
 
 use super::body_state::BodyState;
 use super::certificate::Worst;
 use super::resultant::{Defect, Resultant, length, nodal_lengths};
+use crate::body::Model;
 use crate::error::Error;
 
 /// A residual with the node where it is worst.
@@ -65,10 +68,13 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     });
     let motion = nodal_lengths(state.displacement, dimension).fold(0.0, f64::max);
     let reach = nodes.iter().map(|&x| length(x)).fold(0.0, f64::max);
-    let (forces, moments) = (
-        [loads.force, contact.force, supports.force],
-        [loads.moment, contact.moment, supports.moment],
-    );
+    let [forces, moments] = match state.body.model {
+        Model::Axisymmetric => [parts.map(axial), [[0.0; 3]; 3]],
+        _ => [
+            [loads.force, contact.force, supports.force],
+            [loads.moment, contact.moment, supports.moment],
+        ],
+    };
     Ok(Balance {
         equilibrium: worst_node(&loose, force, dimension),
         support: worst_node(&state.support_departure(), motion, dimension),
@@ -93,6 +99,11 @@ fn worst_node(values: &[f64], scale: f64, dimension: usize) -> WorstNode {
     }
 }
 
+/// Sum of nodal forces along the axis: those around it balance ring by ring.
+fn axial(forces: &[f64]) -> [f64; 3] {
+    [0.0, forces.iter().skip(1).step_by(2).sum(), 0.0]
+}
+
 fn keep(values: &[f64], kept: impl Fn(usize) -> bool) -> Vec<f64> {
     let entries = values.iter().enumerate();
     entries
@@ -107,7 +118,7 @@ mod tests {
     use sprs::{CsMat, TriMat};
 
     use super::*;
-    use crate::body::{Body, Mesh, Model};
+    use crate::body::{Body, Mesh};
     use crate::condensation::{ContactNode, ContactProblem, ContactSurface, Operator};
     use crate::kkt::samples::lid_on_box;
 
@@ -132,6 +143,7 @@ mod tests {
             let contact = ContactNode {
                 body: 0,
                 node: 1,
+                own: vec![(1, 1.0)],
                 opposite: None,
                 pair: 0,
                 position: [3.0, 0.0, 0.0],
@@ -264,7 +276,7 @@ mod tests {
             spring.balance(0.0, &[0.0; 3]),
             Err(Error::Length { .. })
         ));
-        spring.surface.nodes[0].node = 7;
+        spring.surface.nodes[0].own[0].0 = 7;
         assert!(matches!(
             spring.balance(0.0, &[0.0; 4]),
             Err(Error::UnknownIndex { .. })

@@ -63,10 +63,10 @@ pub fn exchange(
             });
         };
         let force = global_force(contact, block(problem, i, reaction));
-        for (k, share) in shares(contact).enumerate() {
+        for share in shares(contact) {
             let position = bodies[share.body].mesh.nodes[share.node];
             let received = force.map(|f| share.weight * f);
-            sums.add((k == 0) != contact.second, position, received);
+            sums.add(share.own != contact.second, position, received);
         }
     }
     let sums = sums.into_iter().zip(pairs);

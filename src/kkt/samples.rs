@@ -16,6 +16,7 @@ pub(super) fn lid_on_box(gap: f64) -> (Vec<Body>, ContactSurface, ContactProblem
     let contact = ContactNode {
         body: 0,
         node: 0,
+        own: vec![(0, 1.0)],
         opposite: Some(OppositeNodes {
             body: 1,
             nodes: vec![(1, 0.75), (0, 0.25)],

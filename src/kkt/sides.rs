@@ -1,8 +1,8 @@
 //! The two sides of a contact: the nodes it moves with and the forces they receive.
 //!
 //! ```text
-//! (K5)  u = R (u_own − Σ_j w_j u_j)       rows of R: the contact's directions
-//!       f_own = Rᵀ t,   f_j = −w_j f_own   j: nodes of the other side, w_j: mortar weights
+//! (K5)  u = R (Σ_k b_k u_k − Σ_j w_j u_j)       rows of R: the contact's directions
+//!       f_k = b_k Rᵀ t,   f_j = −w_j Rᵀ t       k: nodes of its own side, j: of the other side
 //! ```
 
 use crate::body::Body;
@@ -14,25 +14,29 @@ use crate::error::{Error, check_length};
 pub(super) struct Share {
     pub(super) body: usize,
     pub(super) node: usize,
-    /// 1 on the contact's own side, minus the mortar weight on the other.
+    /// It is on the contact's own side.
+    pub(super) own: bool,
+    /// Weight on the contact's own side, minus the mortar weight on the other.
     pub(super) weight: f64,
 }
 
-/// The contact's own node first, then those of the other side.
+/// The contact's own nodes first, then those of the other side.
 pub(super) fn shares(contact: &ContactNode) -> impl Iterator<Item = Share> + '_ {
-    let own = Share {
+    let own = contact.own.iter().map(|&(node, weight)| Share {
         body: contact.body,
-        node: contact.node,
-        weight: 1.0,
-    };
+        node,
+        own: true,
+        weight,
+    });
     let opposite = contact.opposite.iter().flat_map(|side| {
         side.nodes.iter().map(|&(node, weight)| Share {
             body: side.body,
             node,
+            own: false,
             weight: -weight,
         })
     });
-    std::iter::once(own).chain(opposite)
+    own.chain(opposite)
 }
 
 /// Force of one contact on its own body in global axes, in newton, from its block of the
@@ -93,12 +97,14 @@ pub(super) fn check_nodes(
 ) -> Result<(), Error> {
     let count = body.mesh.nodes.len();
     for (i, contact) in surface.nodes.iter().enumerate() {
-        let mut of_body = shares(contact).filter(|share| share.body == index);
-        if let Some(stray) = of_body.find(|share| share.node >= count) {
+        let shares = shares(contact).filter(|share| share.body == index);
+        let own = (contact.body == index).then_some(contact.node);
+        let mut nodes = own.into_iter().chain(shares.map(|share| share.node));
+        if let Some(stray) = nodes.find(|node| *node >= count) {
             return Err(Error::UnknownIndex {
                 place: format!("contact nodes[{i}]"),
                 what: "node",
-                index: stray.node,
+                index: stray,
                 count,
             });
         }

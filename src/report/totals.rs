@@ -85,8 +85,9 @@ impl Totals {
         let mut of_pairs = vec![Sums::default(); parts.pairs.len()];
         let contacts = parts.surface.nodes.iter().zip(forces);
         for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
-            all.add(contact, force, status);
-            of_pairs[contact.pair].add(contact, force, status);
+            let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
+            all.add(contact, centre, force, status);
+            of_pairs[contact.pair].add(contact, centre, force, status);
         }
         let dimension = parts.dimension();
         let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges);
@@ -110,7 +111,14 @@ impl Exchange {
 }
 
 impl Sums {
-    fn add(&mut self, contact: &ContactNode, force: &ContactForce, status: ContactStatus) {
+    /// `centre`: where its force acts, in metre.
+    fn add(
+        &mut self,
+        contact: &ContactNode,
+        centre: [f64; 3],
+        force: &ContactForce,
+        status: ContactStatus,
+    ) {
         match status {
             ContactStatus::Open => self.open += 1,
             ContactStatus::Stick => {
@@ -128,7 +136,7 @@ impl Sums {
             *sum += sign * friction;
         }
         let total = force.total.map(|f| sign * f);
-        self.contact.add(contact.position, total);
+        self.contact.add(centre, total);
         if contact.area > 0.0 {
             self.peak_pressure = self.peak_pressure.max(force.pressing / contact.area);
         }

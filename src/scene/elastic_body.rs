@@ -18,7 +18,7 @@ pub struct SceneBody {
     pub name: String,
     /// Where its mesh comes from.
     pub mesh: MeshSource,
-    /// Plane strain or plane stress, required in 2D; solid when left out in 3D.
+    /// Plane strain, plane stress or axisymmetric, required in 2D; solid when left out in 3D.
     pub model: Option<SceneModel>,
     /// Its materials; together they cover every cell once.
     #[schemars(length(min = 1))]
@@ -47,6 +47,9 @@ pub enum SceneModel {
         #[schemars(extend("exclusiveMinimum" = 0))]
         thickness: f64,
     },
+    /// 2D, the section x = r, y = z of a body of revolution about the y axis; all forces are those
+    /// of the whole circumference.
+    Axisymmetric,
     /// 3D.
     Solid,
 }
@@ -64,6 +67,9 @@ pub struct SceneMaterial {
     #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
     pub poisson: f64,
 }
+
+/// Models of a mesh in 2D.
+const PLANE: &str = "plane_strain, plane_stress or axisymmetric for a mesh in 2D";
 
 impl SceneBody {
     /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
@@ -96,16 +102,15 @@ impl SceneBody {
         let place = format!("{place}.model");
         let (found, accepted) = match (self.model, dimension) {
             (Some(SceneModel::PlaneStrain), 2) => return Ok(Model::PlaneStrain),
+            (Some(SceneModel::Axisymmetric), 2) => return Ok(Model::Axisymmetric),
             (Some(SceneModel::PlaneStress { thickness }), 2) => {
                 let model = Model::PlaneStress { thickness };
                 model.validate(&format!("{place}.plane_stress"))?;
                 return Ok(model);
             }
             (None | Some(SceneModel::Solid), 3) => return Ok(Model::Solid),
-            (None, _) => ("nothing", "plane_strain or plane_stress for a mesh in 2D"),
-            (Some(SceneModel::Solid), _) => {
-                ("solid", "plane_strain or plane_stress for a mesh in 2D")
-            }
+            (None, _) => ("nothing", PLANE),
+            (Some(SceneModel::Solid), _) => ("solid", PLANE),
             (Some(_), _) => ("a plane model", "solid for a mesh in 3D"),
         };
         Err(Error::NotAccepted {

@@ -88,6 +88,12 @@ pub enum PlaneCell {
     Quad4,
     /// Triangles of constant strain.
     Tri3,
+    /// Quadratic quadrilaterals of eight nodes.
+    Quad8,
+    /// Biquadratic quadrilaterals of nine nodes.
+    Quad9,
+    /// Quadratic triangles.
+    Tri6,
 }
 
 /// Cells of a box.
@@ -99,6 +105,12 @@ pub enum SolidCell {
     Hex8,
     /// Tetrahedra of constant strain.
     Tet4,
+    /// Quadratic hexahedra of twenty nodes.
+    Hex20,
+    /// Triquadratic hexahedra of 27 nodes.
+    Hex27,
+    /// Quadratic tetrahedra.
+    Tet10,
 }
 
 fn one() -> f64 {
@@ -158,6 +170,9 @@ impl MeshSource {
                 let kind = match shape.cell {
                     PlaneCell::Quad4 => CellKind::Quad4,
                     PlaneCell::Tri3 => CellKind::Tri3,
+                    PlaneCell::Quad8 => CellKind::Quad8,
+                    PlaneCell::Quad9 => CellKind::Quad9,
+                    PlaneCell::Tri6 => CellKind::Tri6,
                 };
                 let axes = [("x", shape.x), ("y", shape.y)];
                 let [xs, ys] = coordinates(&place, axes, shape.cells, shape.grading, room)?;
@@ -168,6 +183,9 @@ impl MeshSource {
                 let kind = match shape.cell {
                     SolidCell::Hex8 => CellKind::Hex8,
                     SolidCell::Tet4 => CellKind::Tet4,
+                    SolidCell::Hex20 => CellKind::Hex20,
+                    SolidCell::Hex27 => CellKind::Hex27,
+                    SolidCell::Tet10 => CellKind::Tet10,
                 };
                 let axes = [("x", shape.x), ("y", shape.y), ("z", shape.z)];
                 let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading, room)?;

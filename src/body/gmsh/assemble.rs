@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::Version;
-use super::contents::{Contents, Element, Nodes, Shape};
+use super::contents::{Contents, Element, MOST_NODES, Nodes, Shape};
 use super::lines::Lines;
 use crate::body::{Facet, Group, Mesh};
 use crate::error::Error;
@@ -117,7 +117,7 @@ fn push_cells(
     version: Version,
     lines: &Lines<'_>,
 ) -> Result<Vec<usize>, Error> {
-    let mut first_by_nodes: HashMap<[u32; 8], (usize, &Element)> = HashMap::new();
+    let mut first_by_corners: HashMap<[u32; 8], (usize, &Element)> = HashMap::new();
     let mut cells = Vec::new();
     for element in elements {
         let Shape::Cell(kind) = element.shape else {
@@ -126,12 +126,14 @@ fn push_cells(
         if usize::from(element.shape.dimension()) != mesh.dimension {
             continue;
         }
-        let mut key = element.slots;
+        let mut key = [u32::MAX; 8];
+        let corners = &element.slots[..kind.corner_count()];
+        key[..corners.len()].copy_from_slice(corners);
         key.sort_unstable();
         let new = (mesh.cell_count(), element);
-        let &mut (cell, first) = first_by_nodes.entry(key).or_insert(new);
+        let &mut (cell, first) = first_by_corners.entry(key).or_insert(new);
         if cell == mesh.cell_count() {
-            let mut nodes = [0; 8];
+            let mut nodes = [0; MOST_NODES];
             for (slot, node) in nodes.iter_mut().zip(element.nodes()) {
                 *slot = new_index[node];
             }
@@ -180,7 +182,7 @@ fn collect_groups(
                     nodes: element.nodes().map(|node| new_index[node]).collect(),
                 }),
                 Group::Edges(members) => {
-                    members.push([0, 1].map(|at| new_index[element.slots[at] as usize]));
+                    members.push(element.nodes().map(|node| new_index[node]).collect());
                 }
                 Group::Points(members) => {
                     members.extend(element.nodes().map(|node| new_index[node]));

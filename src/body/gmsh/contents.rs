@@ -6,12 +6,15 @@ use super::lines::{Lines, quote};
 use crate::body::CellKind;
 use crate::error::Error;
 
+/// Most nodes of an element.
+pub(super) const MOST_NODES: usize = 27;
+
 /// Shape of an element that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Shape {
     /// One node.
     Point,
-    /// Two nodes.
+    /// Two nodes, or three.
     Line,
     /// A cell of a plane mesh, a facet of a solid one, or a solid cell.
     Cell(CellKind),
@@ -20,28 +23,34 @@ pub(super) enum Shape {
 impl Shape {
     /// Shape and its number of nodes, from Gmsh's number of the element type.
     pub(super) fn from_type(number: u32) -> Result<(Self, usize), String> {
-        let name = match number {
+        let kind = match number {
             15 => return Ok((Self::Point, 1)),
             1 => return Ok((Self::Line, 2)),
-            2 => return Ok((Self::Cell(CellKind::Tri3), 3)),
-            3 => return Ok((Self::Cell(CellKind::Quad4), 4)),
-            4 => return Ok((Self::Cell(CellKind::Tet4), 4)),
-            5 => return Ok((Self::Cell(CellKind::Hex8), 8)),
-            6 => "prism",
-            7 => "pyramid",
-            8 => "3-node line",
-            9 => "6-node triangle",
-            10 => "9-node quadrilateral",
-            11 => "10-node tetrahedron",
-            12 => "27-node hexahedron",
-            16 => "8-node quadrilateral",
-            17 => "20-node hexahedron",
-            _ => "of another shape or order",
+            8 => return Ok((Self::Line, 3)),
+            2 => CellKind::Tri3,
+            3 => CellKind::Quad4,
+            4 => CellKind::Tet4,
+            5 => CellKind::Hex8,
+            9 => CellKind::Tri6,
+            10 => CellKind::Quad9,
+            11 => CellKind::Tet10,
+            12 => CellKind::Hex27,
+            16 => CellKind::Quad8,
+            17 => CellKind::Hex20,
+            _ => {
+                let name = match number {
+                    6 => "prism",
+                    7 => "pyramid",
+                    _ => "of another shape or order",
+                };
+                return Err(format!(
+                    "element type {number} ({name}) is not read; expected points (15), lines \
+                     (1, 8), triangles (2, 9), quadrilaterals (3, 10, 16), tetrahedra (4, 11) \
+                     or hexahedra (5, 12, 17)"
+                ));
+            }
         };
-        Err(format!(
-            "element type {number} ({name}) is not read; expected linear points (15), \
-             lines (1), triangles (2), quadrilaterals (3), tetrahedra (4) or hexahedra (5)"
-        ))
+        Ok((Self::Cell(kind), kind.node_count()))
     }
 
     /// Dimension of the shape, 0 to 3.
@@ -49,8 +58,8 @@ impl Shape {
         match self {
             Self::Point => 0,
             Self::Line => 1,
-            Self::Cell(CellKind::Tri3 | CellKind::Quad4) => 2,
-            Self::Cell(CellKind::Tet4 | CellKind::Hex8) => 3,
+            Self::Cell(kind) if kind.dimension() == 2 => 2,
+            Self::Cell(_) => 3,
         }
     }
 }
@@ -68,7 +77,7 @@ pub(super) struct Element {
     /// Number of nodes in use below.
     pub(super) count: usize,
     /// Nodes, unused ones `u32::MAX`.
-    pub(super) slots: [u32; 8],
+    pub(super) slots: [u32; MOST_NODES],
 }
 
 impl Element {

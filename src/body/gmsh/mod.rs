@@ -61,7 +61,7 @@ pub fn parse_bytes(bytes: &[u8], name: &str) -> Result<Mesh, Error> {
 /// # Errors
 ///
 /// [`Error::Mesh`] with the line: a binary or truncated file, a version other than 2.2
-/// and 4.1, counts that do not match, unknown tags, an element that is not linear, a
+/// and 4.1, counts that do not match, unknown tags, an element that is neither linear nor quadratic, a
 /// plane mesh that does not lie in a plane `z = constant`, no cell at all.
 pub fn parse(text: &str, name: &str) -> Result<Mesh, Error> {
     let mut lines = Lines::new(text, name);
@@ -173,6 +173,37 @@ mod tests {
     }
 
     #[test]
+    fn quadratic_cells_come_with_the_nodes_between_their_corners() {
+        // Corners 1 to 3 of a triangle, 4 to 6 between them; its lower side is a line of three nodes.
+        let text = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+            $Nodes\n6\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 1 0 0\n5 1 1 0\n6 0 1 0\n$EndNodes\n\
+            $Elements\n2\n1 8 2 5 1 1 2 4\n2 9 2 7 1 1 2 3 4 5 6\n$EndElements\n";
+        let mesh = parse(text, "part.msh").unwrap();
+        assert_eq!(mesh.cell(0).kind, CellKind::Tri6);
+        assert_eq!(mesh.cell(0).nodes, [0, 1, 2, 3, 4, 5]);
+        assert_eq!(mesh.groups["5"], Group::Facets(vec![facet(&[0, 1, 3])]));
+        assert_eq!(
+            mesh.orient(&[facet(&[1, 0, 3])]).unwrap(),
+            [facet(&[0, 1, 3])]
+        );
+        assert!((mesh.volume(0) - 2.0).abs() < 1e-15);
+        for (number, kind) in [
+            (10, "Quad9"),
+            (11, "Tet10"),
+            (12, "Hex27"),
+            (16, "Quad8"),
+            (17, "Hex20"),
+        ] {
+            let (shape, nodes) = contents::Shape::from_type(number).unwrap();
+            let said = format!("{shape:?}");
+            assert!(
+                said.contains(kind) && kind.ends_with(&nodes.to_string()),
+                "{said} {nodes}"
+            );
+        }
+    }
+
+    #[test]
     fn a_node_in_a_group_stays_even_where_no_cell_uses_it() {
         let text = SQUARE_2.replace("1 15 2 0 1 40", "1 15 2 9 1 40");
         let text = text.replace("40 9 9 9", "40 9 9 3");
@@ -273,7 +304,7 @@ mod tests {
                 "node 30 of a plane mesh lies at z = 4",
             ),
             ("3 2 2 7 1 10", "3 2 2 7 1 11", 20, "node 11 is not listed"),
-            ("3 2 2 7 1 10", "3 9 2 7 1 10", 20, "9 (6-node triangle)"),
+            ("3 2 2 7 1 10", "3 6 2 7 1 10", 20, "6 (prism)"),
             ("1 10 20 30\n", "1 10 20\n", 20, "the line ends"),
             ("1 10 20 30\n", "1 10 20 30 10\n", 20, "one word too many"),
         ] {

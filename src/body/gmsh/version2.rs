@@ -1,6 +1,6 @@
 //! Sections of MSH 2.2: an element carries its physical group.
 
-use super::contents::{Contents, Element, Shape};
+use super::contents::{Contents, Element, MOST_NODES, Shape};
 use super::lines::Lines;
 use crate::error::Error;
 
@@ -38,7 +38,7 @@ pub(super) fn elements(lines: &mut Lines<'_>, contents: &mut Contents) -> Result
                 physical = value;
             }
         }
-        let mut slots = [u32::MAX; 8];
+        let mut slots = [u32::MAX; MOST_NODES];
         for slot in &mut slots[..nodes] {
             *slot = contents.node(fields.integer("node tag")?, lines)?;
         }

@@ -1,6 +1,6 @@
 //! Sections of MSH 4.1: blocks of nodes and elements per geometric entity.
 
-use super::contents::{Contents, Element, Shape};
+use super::contents::{Contents, Element, MOST_NODES, Shape};
 use super::lines::Lines;
 use crate::error::Error;
 
@@ -152,7 +152,7 @@ pub(super) fn elements(lines: &mut Lines<'_>, contents: &mut Contents) -> Result
             let of = block.count;
             let mut fields = lines.fields(&format_args!("element {} of {of}", element + 1))?;
             fields.integer::<u64>("element tag")?;
-            let mut slots = [u32::MAX; 8];
+            let mut slots = [u32::MAX; MOST_NODES];
             for slot in &mut slots[..nodes] {
                 *slot = contents.node(fields.integer("node tag")?, lines)?;
             }

@@ -5,14 +5,14 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::alignment::align;
-use super::check::geometries;
+use super::check::Surface;
 use super::cover::Opposite;
 use super::overlap::Overlaps;
 use super::projection::Projection;
 use super::search::Bounds;
 use super::view::View;
 use super::{Mortar, MortarNode};
-use crate::body::{Facet, Mesh};
+use crate::body::{Facet, Mesh, Model};
 use crate::error::Error;
 
 /// Covered share of a node's tributary area below which the node is no contact.
@@ -26,7 +26,8 @@ const INTERFERENCE: f64 = 0.05;
 const NEGLIGIBLE: f64 = 4.0 * f64::EPSILON;
 
 /// Couples the nodes of side 1 to side 2; facets in outward order
-/// ([`Mesh::orient`]), each listed once; `place` names the contact pair in messages.
+/// ([`Mesh::orient`]), each listed once; `model` is that of the bodies, whose areas go around the
+/// axis if they are axisymmetric; `place` names the contact pair in messages.
 ///
 /// The two sides may be faces of one mesh. In front there is no limit to the distance;
 /// overlap counts as an interference fit down to a twentieth of the diagonal of the
@@ -42,6 +43,7 @@ pub fn couple(
     facets1: &[Facet],
     mesh2: &Mesh,
     facets2: &[Facet],
+    model: Model,
     place: &str,
 ) -> Result<Mortar, Error> {
     if mesh1.dimension != mesh2.dimension {
@@ -51,19 +53,19 @@ pub fn couple(
             found: mesh2.dimension,
         });
     }
-    let geometries1 = geometries(mesh1, facets1, &format!("{place}.facets"))?;
-    let geometries2 = geometries(mesh2, facets2, &format!("{place}.opposite"))?;
+    let side1 = Surface::new(mesh1, facets1, &format!("{place}.facets"))?;
+    let side2 = Surface::new(mesh2, facets2, &format!("{place}.opposite"))?;
     let extents = [(mesh1, facets1), (mesh2, facets2)]
         .map(|(mesh, facets)| Bounds::around(mesh, facets.iter()).diagonal());
     let depth = INTERFERENCE * extents[0].min(extents[1]);
     let reach = extents[0].max(extents[1]);
-    let opposite = Opposite::new(mesh2, facets2, &geometries2, [depth, reach]);
+    let opposite = Opposite::new(mesh2, &side2.facets, &side2.geometries, [depth, reach]);
     let overlaps = Overlaps::new(mesh1, mesh2);
     let mut gathered = Gathered::default();
     let mut averted = 0;
-    for (facet, geometry) in facets1.iter().zip(&geometries1) {
-        let view = View::new(mesh1, facet);
-        let outline = view.outline(mesh1, facet);
+    for piece in &side1.pieces {
+        let view = View::new(mesh1, &piece.corners);
+        let outline = view.outline(mesh1, &piece.corners);
         let cover = opposite.cover(&view, &outline);
         averted += cover.averted;
         if let Some(span) = cover.behind.filter(|span| overlaps.encloses(span)) {
@@ -74,9 +76,12 @@ pub fn couple(
                 allowed: depth,
             });
         }
-        let count = facet.nodes.len();
-        let projection = Projection::new(&view, &outline, count, &cover.parts, facets2);
-        gathered.add(facet, &geometry.weights, &projection);
+        let pieces2 = &side2.pieces;
+        let projection = Projection::new(&view, &outline, piece, &cover.parts, pieces2, model);
+        gathered.add(piece.facet.corners(mesh1.dimension), &projection);
+    }
+    for facet in facets1 {
+        gathered.support(mesh1, facet, model);
     }
     let same_mesh = std::ptr::eq(mesh1, mesh2);
     let mut mortar = Mortar::default();
@@ -115,28 +120,52 @@ struct Share {
     weight: f64,
     /// `∫ N_i n dA`, in m² (2D: metre).
     vector: Vector3<f64>,
+    /// `D_ei`, or `∫ ψ_i N_k dA` per node of side 1, unsorted, in m² (2D: metre).
+    own: Vec<(usize, f64)>,
     /// `D_ei P_eik` per node of side 2, unsorted, in m² (2D: metre).
     opposite: Vec<(usize, f64)>,
 }
 
 impl Gathered {
-    fn add(&mut self, facet: &Facet, weights: &[f64; 4], projection: &Projection) {
-        for (local, &node) in facet.nodes.iter().enumerate() {
-            let place = *self.place_of_node.entry(node).or_insert(self.shares.len());
-            if place == self.shares.len() {
-                self.shares.push(Share {
-                    node,
-                    ..Share::default()
-                });
-            }
-            let share = &mut self.shares[place];
-            let area = projection.areas[local];
-            share.support += weights[local];
-            share.weight += area;
+    fn of(&mut self, node: usize) -> &mut Share {
+        let place = *self.place_of_node.entry(node).or_insert(self.shares.len());
+        if place == self.shares.len() {
+            self.shares.push(Share {
+                node,
+                ..Share::default()
+            });
+        }
+        &mut self.shares[place]
+    }
+
+    /// Adds the share of one piece, at the corners of its facet.
+    fn add(&mut self, corners: &[usize], projection: &Projection) {
+        for (local, &node) in corners.iter().enumerate() {
+            let share = self.of(node);
+            share.weight += projection.areas[local];
             share.vector += projection.vectors[local];
-            let columns = projection.columns.iter();
-            let entries = columns.map(|(across, column)| (*across, area * column[local]));
-            share.opposite.extend(entries);
+            let entry = |(node, column): &(usize, [f64; 4])| (*node, column[local]);
+            let own = projection.own.iter().map(entry);
+            share.own.extend(own.filter(|(_, weight)| *weight != 0.0));
+            share.opposite.extend(projection.columns.iter().map(entry));
+        }
+    }
+
+    /// Adds the whole areas of the corners of a facet.
+    fn support(&mut self, mesh: &Mesh, facet: &Facet, model: Model) {
+        let corners = facet.corners(mesh.dimension);
+        if model != Model::Axisymmetric && corners.len() == facet.nodes.len() {
+            let geometry = mesh.facet_geometry(facet);
+            for (node, weight) in corners.iter().zip(geometry.weights) {
+                self.of(*node).support += weight;
+            }
+            return;
+        }
+        for point in mesh.facet_points(facet, model) {
+            let area = point.vector.norm();
+            for (node, hat) in corners.iter().zip(point.hats) {
+                self.of(*node).support += hat * area;
+            }
         }
     }
 }
@@ -149,11 +178,20 @@ impl MortarNode {
         mesh1: &Mesh,
         mesh2: &Mesh,
     ) {
-        let position = mesh1.nodes[self.node];
+        let terms = self.own.iter();
+        let centre: Vector3<f64> = terms
+            .map(|(k, weight)| Vector3::from(mesh1.nodes[*k]) * *weight)
+            .sum();
         let direction = Vector3::from(normal);
         let weights = &mut self.opposite;
-        align(weights, &mesh2.nodes, position, direction, mesh1.dimension);
-        let x = Vector3::from(position);
+        align(
+            weights,
+            &mesh2.nodes,
+            centre.into(),
+            direction,
+            mesh1.dimension,
+        );
+        let x = centre;
         let terms = self.opposite.iter();
         let gap_vector: Vector3<f64> = terms
             .map(|(k, weight)| (Vector3::from(mesh2.nodes[*k]) - x) * *weight)
@@ -166,12 +204,7 @@ impl MortarNode {
 
 impl Share {
     /// The contact of the node (C9); none if nothing covers it.
-    fn contact(
-        mut self,
-        mesh1: &Mesh,
-        mesh2: &Mesh,
-        place: &str,
-    ) -> Result<Option<MortarNode>, Error> {
+    fn contact(self, mesh1: &Mesh, mesh2: &Mesh, place: &str) -> Result<Option<MortarNode>, Error> {
         if self.weight <= VANISHING * self.support {
             return Ok(None);
         }
@@ -182,12 +215,12 @@ impl Share {
                 accepted: "facets around a node that do not look opposite ways",
             });
         };
-        self.sum_up();
         let mut node = MortarNode {
             node: self.node,
+            own: means(self.own),
             weight: self.weight,
             normal: normal.into(),
-            opposite: self.opposite,
+            opposite: means(self.opposite),
             gap_vector: [0.0; 3],
             initial_gap: 0.0,
             covered: (self.weight / self.support).min(1.0),
@@ -195,21 +228,21 @@ impl Share {
         node.look_along(normal.into(), mesh1, mesh2);
         Ok(Some(node))
     }
+}
 
-    /// Weights per node of side 2 that sum to one, without those that are round-off.
-    fn sum_up(&mut self) {
-        self.opposite.sort_by_key(|entry| entry.0);
-        self.opposite.dedup_by(|next, kept| {
-            let same = next.0 == kept.0;
-            kept.1 += if same { next.1 } else { 0.0 };
-            same
-        });
-        let total: f64 = self.opposite.iter().map(|entry| entry.1).sum();
-        self.opposite
-            .retain(|entry| entry.1.abs() > NEGLIGIBLE * total);
-        let total: f64 = self.opposite.iter().map(|entry| entry.1).sum();
-        for entry in &mut self.opposite {
-            entry.1 /= total;
-        }
+/// Weights per node that sum to one, ascending, without those that are round-off, from shares.
+fn means(mut shares: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+    shares.sort_by_key(|entry| entry.0);
+    shares.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        kept.1 += if same { next.1 } else { 0.0 };
+        same
+    });
+    let total: f64 = shares.iter().map(|entry| entry.1).sum();
+    shares.retain(|entry| entry.1.abs() > NEGLIGIBLE * total);
+    let total: f64 = shares.iter().map(|entry| entry.1).sum();
+    for entry in &mut shares {
+        entry.1 /= total;
     }
+    shares
 }

@@ -15,9 +15,12 @@
 //! facet that the other side covers, so a face that overhangs still carries a constant
 //! pressure exactly.
 //!
+//! Quadratic facets of side 1 carry the dual multipliers of the linear `φ_j` at their corners
+//! (C14); those of side 2 enter by their own `N²_k`.
+//!
 //! | step | file |
 //! |---|---|
-//! | facets fit for contact | `check` |
+//! | facets fit for contact, in linear pieces | `check`, `pieces` |
 //! | what lies over a facet, at any distance | `search` |
 //! | a facet's plane, the others seen in it | `view` |
 //! | polygons: intersection, difference, area | `polygon` |
@@ -39,6 +42,7 @@ mod cover;
 #[cfg(test)]
 mod curved_faces;
 mod overlap;
+mod pieces;
 #[cfg(test)]
 mod plane_faces;
 mod polygon;
@@ -63,15 +67,18 @@ pub struct Mortar {
 /// A node of side 1 and its share of side 2.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MortarNode {
-    /// Node of side 1's mesh.
+    /// Node of side 1's mesh: a corner.
     pub node: usize,
+    /// The nodes of side 1's mesh that it moves with and their weights, which sum to one (C14);
+    /// its own node alone where its facets are linear.
+    pub own: Vec<(usize, f64)>,
     /// `D_i = ∫ N_i dA` over what the other side covers, in m² (2D: in metre).
     pub weight: f64,
     /// Unit normal towards the other side: the mean over the covered facets around the node.
     pub normal: [f64; 3],
     /// Nodes of side 2's mesh, ascending, with their weights `P_ik`, which sum to one.
     pub opposite: Vec<(usize, f64)>,
-    /// `Σ_k P_ik x²_k − x_i`, in metre.
+    /// `Σ_k P_ik x²_k − x_i`, in metre, where `x_i` is the mean of its own nodes.
     pub gap_vector: [f64; 3],
     /// The gap vector along the normal, in metre; negative where the sides overlap.
     pub initial_gap: f64,

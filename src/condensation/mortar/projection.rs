@@ -1,4 +1,4 @@
-//! What one facet contributes: its covered area and its projection of the other side.
+//! What one piece of a facet contributes: its covered area and its projection of the other side.
 //!
 //! ```text
 //! D_i = ∫ N_i dA      M_ij = ∫ N_i N_j dA      B_ik = ∫ N_i N²_k dA      P = M⁻¹ B
@@ -7,13 +7,17 @@
 //! all over the covered parts. `P` is the least-squares projection of side 2 onto the
 //! facet's shape functions, so that `D_i P_ik = ∫ ψ_i N²_k dA` with the dual functions
 //! `ψ = D M⁻¹ N`. Rows of `B` sum to `M 1`, hence rows of `P` sum to one.
+//!
+//! On quadratic facets the linear `φ_j` of (C14) stand for `N_i`, and their own nodes enter by
+//! `∫ ψ_j N_k dA`. Around an axis `dA = 2πr ds`.
 
 use nalgebra::Vector3;
 
 use super::cover::Part;
+use super::pieces::Piece;
 use super::quadrature::{LINEAR, integrate, points_for};
 use super::view::{Outline, View};
-use crate::body::Facet;
+use crate::body::{MOST_FACET_NODES, Model, around};
 
 /// Pivot of the scaled `M` below which the covered part is too small to tell slopes.
 const PIVOT: f64 = 1e-14;
@@ -25,32 +29,51 @@ pub(super) struct Projection {
     pub(super) areas: [f64; 4],
     /// `∫ N_i n dA`, in m² (2D: metre).
     pub(super) vectors: [Vector3<f64>; 4],
-    /// Nodes of side 2, ascending, with their column of `P`.
+    /// Nodes of the facet, with `D_j` at node j alone, or with `∫ ψ_j N_k dA` (C14).
+    pub(super) own: Vec<(usize, [f64; 4])>,
+    /// Nodes of side 2, ascending, with `D_i P_ik = ∫ ψ_i N²_k dA`.
     pub(super) columns: Vec<(usize, [f64; 4])>,
 }
 
 impl Projection {
-    /// Integrates over the parts of a facet with `nodes` nodes that `opposite` facets cover.
+    /// Integrates over the parts of a piece that `opposite` pieces cover.
     pub(super) fn new(
         view: &View,
         facet: &Outline,
-        nodes: usize,
+        piece: &Piece<'_>,
         parts: &[Part],
-        opposite: &[Facet],
+        opposite: &[Piece<'_>],
+        model: Model,
     ) -> Self {
+        let nodes = piece.hat_count();
+        let around = around(model);
         let mut mass = [[0.0; 4]; 4];
+        let mut own = [[0.0; 4]; MOST_FACET_NODES];
         let mut projection = Self::default();
         for part in parts {
-            let across = &opposite[part.opposite].nodes;
-            let mut columns = [[0.0; 4]; 4];
-            let points = match nodes.max(across.len()) {
+            let across = &opposite[part.opposite];
+            let mut columns = [[0.0; 4]; MOST_FACET_NODES];
+            let points = match piece.corners.nodes.len().max(across.corners.nodes.len()) {
                 4 => points_for(facet.distortion().max(part.outline.distortion())),
                 _ => LINEAR,
             };
-            integrate(&part.polygon, points, |at, share| {
-                let vector = view.vector(facet.area_vector(at)) * (share * view.unit);
+            let higher =
+                piece.is_quadratic() || across.is_quadratic() || model == Model::Axisymmetric;
+            integrate(&part.polygon, points + usize::from(higher), |at, share| {
+                let of_piece = facet.shape(at);
+                let position = view.position(facet.within(at, facet.height(&of_piece)));
+                let stretch = share * view.unit * around(position);
+                let vector = view.vector(facet.area_vector(at)) * stretch;
                 let area = vector.norm();
-                let (here, there) = (facet.shape(at), part.outline.shape(at));
+                let here = piece.hats(&of_piece);
+                let there = across.shape(&part.outline.shape(at));
+                if piece.is_quadratic() {
+                    for (column, value) in own.iter_mut().zip(piece.shape(&of_piece)) {
+                        for (entry, hat) in column.iter_mut().zip(here) {
+                            *entry += hat * value * area;
+                        }
+                    }
+                }
                 for i in 0..nodes {
                     projection.areas[i] += here[i] * area;
                     projection.vectors[i] += vector * here[i];
@@ -62,24 +85,35 @@ impl Projection {
                     }
                 }
             });
-            projection
-                .columns
-                .extend(across.iter().copied().zip(columns));
+            let nodes = across.facet.nodes.iter().copied();
+            projection.columns.extend(nodes.zip(columns));
         }
         merge(&mut projection.columns);
+        let facet = piece.facet.nodes.iter().copied();
+        projection.own = facet.zip(own).collect();
         projection.solve(nodes, mass);
+        if !piece.is_quadratic() {
+            // Biorthogonality to the last bit.
+            for (i, (_, column)) in projection.own.iter_mut().enumerate() {
+                *column = [0.0; 4];
+                column[i] = projection.areas[i];
+            }
+        }
         projection
     }
 
-    /// Replaces the columns of `B` by those of `P = M⁻¹ B`.
+    /// Replaces the columns of `B` by those of `D P = D M⁻¹ B`.
     fn solve(&mut self, nodes: usize, mass: [[f64; 4]; 4]) {
         let total: f64 = self.areas.iter().sum();
         let factor = Factor::new(nodes, mass);
-        for (_, column) in &mut self.columns {
+        for (_, column) in self.columns.iter_mut().chain(&mut self.own) {
             match &factor {
                 Some(factor) => factor.solve(column),
                 // All nodes see the mean of what covers so small a part.
                 None => *column = [column.iter().sum::<f64>() / total; 4],
+            }
+            for (entry, area) in column.iter_mut().zip(self.areas) {
+                *entry *= area;
             }
         }
     }
@@ -229,7 +263,8 @@ mod tests {
         projection.solve(2, mass);
         for (row, expected) in [(0, 0.3), (1, 0.7)] {
             let (_, column) = projection.columns[row];
-            assert!((column[0] - expected).abs() < 1e-15 && column[0] == column[1]);
+            let means = [column[0] / areas[0], column[1] / areas[1]];
+            assert!(means.iter().all(|mean| (mean - expected).abs() < 1e-15));
         }
     }
 }

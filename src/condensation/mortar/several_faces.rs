@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::sides::{Side, block, join, meet, stack, weight, worst_gap};
 use super::{MortarNode, couple};
-use crate::body::{CellKind, Facet, Mesh};
+use crate::body::{CellKind, Facet, Mesh, Model};
 use crate::error::Error;
 
 #[test]
@@ -118,13 +118,20 @@ fn a_sheet_that_faces_both_ways_has_no_normal() {
         nodes: nodes.to_vec(),
     };
     let (sheet, flats) = ([line([0, 1]), line([1, 0])], [line([3, 2]), line([4, 5])]);
-    let found = couple(&mesh, &sheet, &mesh, &flats, "contacts[0]").unwrap_err();
+    let found = couple(&mesh, &sheet, &mesh, &flats, Model::Solid, "contacts[0]").unwrap_err();
     assert!(matches!(found, Error::Direction { .. }), "{found}");
     assert_eq!(
-        couple(&mesh, &sheet[..1], &mesh, &flats, "contacts[0]")
-            .unwrap()
-            .nodes
-            .len(),
+        couple(
+            &mesh,
+            &sheet[..1],
+            &mesh,
+            &flats,
+            Model::Solid,
+            "contacts[0]"
+        )
+        .unwrap()
+        .nodes
+        .len(),
         2
     );
 }
@@ -141,7 +148,15 @@ fn two_faces_of_one_mesh_meet_across_a_slot() {
         let body = join(two, &one);
         let (below, above) = body.facets.split_at(lower);
         let first = body.mesh.nodes.len() - one.mesh.nodes.len();
-        let slot = couple(&body.mesh, above, &body.mesh, below, "contacts[0]").unwrap();
+        let slot = couple(
+            &body.mesh,
+            above,
+            &body.mesh,
+            below,
+            Model::Solid,
+            "contacts[0]",
+        )
+        .unwrap();
         for (a, b) in apart.nodes.iter().zip(&slot.nodes) {
             assert_eq!((a.node + first, &a.opposite), (b.node, &b.opposite));
         }
@@ -165,7 +180,7 @@ fn a_node_at_the_tip_of_a_crack_meets_nobody() {
         })
     };
     let (upper, lower) = (lines([[0, 1], [1, 2]]), lines([[4, 3], [3, 0]]));
-    let mortar = couple(&mesh, &upper, &mesh, &lower, "contacts[0]").unwrap();
+    let mortar = couple(&mesh, &upper, &mesh, &lower, Model::Solid, "contacts[0]").unwrap();
     let met = mortar
         .nodes
         .iter()

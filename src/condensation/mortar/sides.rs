@@ -6,7 +6,7 @@ use nalgebra::Vector3;
 
 use super::{Mortar, couple};
 use crate::body::samples::facets;
-use crate::body::{CellKind, Facet, Mesh, box_mesh, gmsh, graded, rectangle};
+use crate::body::{CellKind, Facet, Mesh, Model, box_mesh, gmsh, graded, rectangle};
 use crate::error::Error;
 
 /// One of two bodies that meet: its mesh and its contact face in outward order.
@@ -61,6 +61,7 @@ pub(super) fn meet([one, two]: &[Side; 2]) -> Result<Mortar, Error> {
         &one.facets,
         &two.mesh,
         &two.facets,
+        Model::Solid,
         "contacts[0]",
     )
 }

@@ -74,8 +74,10 @@ fn joined(bodies: &[BodyFields<'_>]) -> (usize, Cells) {
     let (mut first, mut cells) = (0, Cells::default());
     for body in bodies {
         for cell in body.mesh.cells() {
-            let points = cell.nodes.iter().map(|node| first + node);
-            cells.push(vtk_kind(cell.kind), points);
+            let (number, moved) = vtk_kind(cell.kind);
+            let kept = 0..cell.nodes.len() - moved.len();
+            let order = kept.chain(moved.iter().copied());
+            cells.push(number, order.map(|local| first + cell.nodes[local]));
         }
         first += body.mesh.nodes.len();
     }
@@ -113,12 +115,71 @@ fn has_field<'a>(
     Ok(present)
 }
 
-/// VTK's number of a cell; its order of nodes is the mesh's own.
-fn vtk_kind(kind: CellKind) -> u8 {
+/// VTK's number of a cell, and the mesh's local nodes at the end of VTK's order where it is another.
+fn vtk_kind(kind: CellKind) -> (u8, &'static [usize]) {
+    const EDGES_THEN_FACES: [usize; 19] = [
+        8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26,
+    ];
     match kind {
-        CellKind::Tri3 => 5,
-        CellKind::Quad4 => 9,
-        CellKind::Tet4 => 10,
-        CellKind::Hex8 => 12,
+        CellKind::Tri3 => (5, &[]),
+        CellKind::Quad4 => (9, &[]),
+        CellKind::Tet4 => (10, &[]),
+        CellKind::Hex8 => (12, &[]),
+        CellKind::Tri6 => (22, &[]),
+        CellKind::Quad8 => (23, &[]),
+        CellKind::Quad9 => (28, &[]),
+        CellKind::Tet10 => (24, &[9, 8]),
+        CellKind::Hex20 => (25, EDGES_THEN_FACES.split_at(12).0),
+        CellKind::Hex27 => (29, &EDGES_THEN_FACES),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Nodes between which those of a quadratic cell stand, in VTK's order after the corners: the
+    /// edges, then the corners of faces (VTK, vtkCellType and its cells' documentation).
+    const TETRAHEDRON: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]];
+    const HEXAHEDRON: [&[usize]; 18] = [
+        &[0, 1],
+        &[1, 2],
+        &[2, 3],
+        &[3, 0],
+        &[4, 5],
+        &[5, 6],
+        &[6, 7],
+        &[7, 4],
+        &[0, 4],
+        &[1, 5],
+        &[2, 6],
+        &[3, 7],
+        &[0, 3, 4, 7],
+        &[1, 2, 5, 6],
+        &[0, 1, 4, 5],
+        &[2, 3, 6, 7],
+        &[0, 1, 2, 3],
+        &[4, 5, 6, 7],
+    ];
+
+    #[test]
+    fn nodes_between_corners_stand_in_the_order_of_the_format() {
+        for (kind, between) in [
+            (CellKind::Tet10, &TETRAHEDRON[..]),
+            (CellKind::Hex20, &HEXAHEDRON[..12]),
+            (CellKind::Hex27, &HEXAHEDRON[..]),
+        ] {
+            let (_, moved) = vtk_kind(kind);
+            let order: Vec<usize> = (0..kind.node_count() - moved.len())
+                .chain(moved.iter().copied())
+                .collect();
+            for (place, corners) in (kind.corner_count()..).zip(between) {
+                let found = kind.position(order[place]);
+                for (axis, found) in found.into_iter().enumerate() {
+                    let sum: f64 = corners.iter().map(|c| kind.position(*c)[axis]).sum();
+                    assert_eq!(found, sum / corners.len() as f64, "{kind:?} {place}");
+                }
+            }
+        }
     }
 }

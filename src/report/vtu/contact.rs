@@ -9,7 +9,7 @@ use crate::error::{Error, check_length};
 use crate::report::{Contact, ContactState, Report};
 
 /// The contact surface of a report as a VTU document. One point per contact in the
-/// report's order, on the contact's own body, then the facet nodes that are no contacts.
+/// report's order, on the contact's own body, then the facet corners that are no contacts.
 ///
 /// `facets` come with the index of their body, `displacements` are per body and unknown.
 /// Point arrays: `displacement`, `pressure`, `friction_traction`, `gap`, `slip`, `state`
@@ -110,6 +110,8 @@ impl Surface {
             let mut corners = Vec::with_capacity(facet.nodes.len());
             for &node in &facet.nodes {
                 check_node(bodies, "facet", *body, node)?;
+            }
+            for &node in facet.corners(bodies[*body].mesh.dimension) {
                 let point = *point_of.entry((*body, node)).or_insert_with(|| {
                     surface.points.push((*body, node));
                     surface.points.len() - 1
