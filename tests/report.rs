@@ -134,6 +134,8 @@ impl Row {
             problem,
             outcome: Outcome {
                 status: Status::Certified,
+                shortfall: None,
+                condition: None,
                 reaction,
                 motion: Vec::new(),
                 failure: None,

@@ -42,6 +42,10 @@ pub(crate) struct Solve {
     /// Take a load history on from the state in this file.
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
+    /// Solve again from N other starts and say whether they end in the same state, and how much
+    /// friction the alternation takes (of the last state, where the scene has load steps).
+    #[arg(long, value_name = "N")]
+    starts: Option<usize>,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -61,7 +65,10 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
         states.add(arguments, axes, solution)
     })?;
-    let report = solution.report()?;
+    let mut report = solution.report()?;
+    if let Some(starts) = arguments.starts {
+        report.trust = solution.trust(starts)?;
+    }
     if let Some(path) = &arguments.report {
         replace_file(path, &report.to_json())?;
     }

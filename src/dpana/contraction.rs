@@ -190,7 +190,9 @@ impl<'a> Disturbance<'a> {
             let found = tangential.solve(Col::from_fn(self.directions.len(), |k| {
                 let direction = &self.directions[k];
                 let along = direction.along.iter().enumerate();
-                -along.map(|(axis, e)| e * moved[direction.unknown + axis]).sum::<f64>()
+                -along
+                    .map(|(axis, e)| e * moved[direction.unknown + axis])
+                    .sum::<f64>()
             }));
             for (direction, amount) in self.directions.iter().zip(found.iter()) {
                 for (axis, e) in direction.along.iter().enumerate() {
@@ -205,7 +207,9 @@ impl<'a> Disturbance<'a> {
 }
 
 fn unit(size: usize, axis: usize) -> Vec<f64> {
-    (0..size).map(|k| if k == axis { 1.0 } else { 0.0 }).collect()
+    (0..size)
+        .map(|k| if k == axis { 1.0 } else { 0.0 })
+        .collect()
 }
 
 fn length(vector: &[f64]) -> f64 {

@@ -10,8 +10,8 @@ use std::time::Instant;
 
 use faer::Mat;
 
-use super::{Failure, Shortfall};
 use super::sweep::Run;
+use super::{Failure, Shortfall};
 use crate::condensation::Floating;
 use crate::cone::{CoulombProgram, Equilibrium, RigidContacts};
 use crate::kkt;

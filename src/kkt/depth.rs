@@ -63,11 +63,13 @@ mod tests {
         // û + G t + R α = 1 − 1e16 + 1e16 = 1; plain sums give 0.
         let operator = Operator::from_compliance(mat![[1e16, 0.0], [0.0, 1.0]]).unwrap();
         let (zero, free) = (vec![0.0; 2], vec![1.0, 0.0]);
-        let problem =
-            ContactProblem::new(&[0, 0], zero.clone(), zero, free, operator).unwrap();
+        let problem = ContactProblem::new(&[0, 0], zero.clone(), zero, free, operator).unwrap();
         let floating = Floating::new(mat![[1e16], [0.0]], vec![0.0]).unwrap();
         let problem = problem.float(floating).unwrap();
-        assert_eq!(deep_displacement(&problem, &[-1.0, 0.0], &[1.0]), [1.0, 0.0]);
+        assert_eq!(
+            deep_displacement(&problem, &[-1.0, 0.0], &[1.0]),
+            [1.0, 0.0]
+        );
     }
 
     #[test]
@@ -77,6 +79,9 @@ mod tests {
         let operator = Operator::from_compliance(mat![[1.0 + tiny]]).unwrap();
         let free = vec![-1.0 - 2.0 * tiny];
         let problem = ContactProblem::new(&[0], vec![0.0], vec![0.0], free, operator).unwrap();
-        assert_eq!(deep_displacement(&problem, &[1.0 + tiny], &[]), [tiny * tiny]);
+        assert_eq!(
+            deep_displacement(&problem, &[1.0 + tiny], &[]),
+            [tiny * tiny]
+        );
     }
 }

@@ -37,15 +37,25 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
         // stiffer one's stiffness only through a compliance that is a sum of both.
         let patch = stacked(contrast, 0.0, true, 0.0)?;
         let patch = Case::scene("stiffness contrast", name("patch"), patch);
-        cases.push(patch.presses(1e-9, 1.0).knows("uniform pressure", 1e-8, |answer| {
-            let Some(solution) = &answer.solution else {
-                return Ok(f64::NAN);
-            };
-            let pressures = solution.report()?.contacts.into_iter();
-            Ok(pressures
-                .map(|contact| (contact.pressure.unwrap_or(f64::NAN) - 1.0).abs())
-                .fold(0.0, |worst: f64, error| if error > worst || error.is_nan() { error } else { worst }))
-        }));
+        cases.push(
+            patch
+                .presses(1e-9, 1.0)
+                .knows("uniform pressure", 1e-8, |answer| {
+                    let Some(solution) = &answer.solution else {
+                        return Ok(f64::NAN);
+                    };
+                    let pressures = solution.report()?.contacts.into_iter();
+                    Ok(pressures
+                        .map(|contact| (contact.pressure.unwrap_or(f64::NAN) - 1.0).abs())
+                        .fold(0.0, |worst: f64, error| {
+                            if error > worst || error.is_nan() {
+                                error
+                            } else {
+                                worst
+                            }
+                        }))
+                }),
+        );
         let sheared = stacked(contrast, 0.3, true, PULL)?;
         cases.push(Case::scene("stiffness contrast", name("sheared"), sheared).presses(1e-9, 1.0));
         // Statics alone: the reactions of a floating block are right to the tolerance of 1e-12, less
@@ -55,9 +65,13 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
             name("floating"),
             stacked(contrast, 0.3, false, PULL)?,
         );
-        cases.push(floating.presses(1e-9, 1.0).knows("friction", 1e-8, |answer| {
-            Ok((answer.friction().abs() / PULL - 1.0).abs())
-        }));
+        cases.push(
+            floating
+                .presses(1e-9, 1.0)
+                .knows("friction", 1e-8, |answer| {
+                    Ok((answer.friction().abs() / PULL - 1.0).abs())
+                }),
+        );
     }
     Ok(cases)
 }

@@ -42,10 +42,12 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
         for friction in [0.1, 0.3, 1.0, 3.0] {
             let limit = friction * PRESSED;
             let scene = |part: f64| pad(dimension, friction, part * limit);
-            let name = |part: f64| format!("pad in {dimension}D, mu {friction}, {part} of its limit");
+            let name =
+                |part: f64| format!("pad in {dimension}D, mu {friction}, {part} of its limit");
             for part in HELD {
                 // Statics of six forces at a tolerance of 1e-12.
-                cases.push(Case::scene("floating", name(part), scene(part)?).presses(1e-9, PRESSED));
+                cases
+                    .push(Case::scene("floating", name(part), scene(part)?).presses(1e-9, PRESSED));
             }
             for part in BEYOND {
                 // The missing force is a small part of the limit, to which the search is exact.

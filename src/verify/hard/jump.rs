@@ -14,7 +14,9 @@ const PATTERNS: [(&str, Along); 6] = [
     ("0 then 2", |x, _| if x < 0.5 { 0.0 } else { 2.0 }),
     ("2 then 0", |x, _| if x < 0.5 { 2.0 } else { 0.0 }),
     ("1e-6 and 5 in turn", |_, contact| [1e-6, 5.0][contact % 2]),
-    ("stripes of 0.1, 1 and 10", |x, _| [0.1, 1.0, 10.0][(12.0 * x) as usize % 3]),
+    ("stripes of 0.1, 1 and 10", |x, _| {
+        [0.1, 1.0, 10.0][(12.0 * x) as usize % 3]
+    }),
 ];
 
 /// The square with friction of a pattern.
@@ -39,7 +41,9 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
                 let (problem, t) = (&answer.problem, &answer.outcome.reaction);
                 let largest = t.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
                 let smooth = (0..problem.contacts()).filter(|&k| problem.friction()[k] == 0.0);
-                let worst = smooth.fold(0.0_f64, |most, k| most.max(t[problem.offsets()[k] + 1].abs()));
+                let worst = smooth.fold(0.0_f64, |most, k| {
+                    most.max(t[problem.offsets()[k] + 1].abs())
+                });
                 Ok(worst / largest)
             }));
         }

@@ -50,7 +50,12 @@ fn beside_a_support(cells: usize, both: bool, friction: f64) -> Result<Scene, Er
 pub(super) fn cases() -> Result<Vec<Case>, Error> {
     let mut cases = Vec::new();
     for friction in [0.0, 0.3, 1.0, 5.0] {
-        for (cells, contrast) in [([8, 4], 1.0), ([9, 5], 1e3), ([24, 8], 1e3), ([7, 11], 1e-3)] {
+        for (cells, contrast) in [
+            ([8, 4], 1.0),
+            ([9, 5], 1e3),
+            ([24, 8], 1e3),
+            ([7, 11], 1e-3),
+        ] {
             let name = format!(
                 "punch {} on {} cells, 1 : {contrast:e}, mu {friction}",
                 cells[0], cells[1]
