@@ -51,7 +51,7 @@ fn row(name: &str, scene: &Scene, variations: &[Variation]) -> Result<(), Box<dy
     let certified = table
         .rows
         .iter()
-        .filter(|row| row.contains(&Cell::Word("certified")));
+        .filter(|row| row.contains(&Cell::Word("certified".into())));
     let certified = certified.count();
     let start = Instant::now();
     for k in 0..SEPARATE {

@@ -210,6 +210,18 @@ pub enum Error {
         largest: f64,
     },
 
+    /// The operator of a bare problem is not positive semi-definite.
+    #[error(
+        "operator: smallest eigenvalue {eigenvalue:e} (largest entry {largest:e}); expected a positive \
+         semi-definite matrix, no eigenvalue below -1e-10 of the trace"
+    )]
+    Indefinite {
+        /// Its smallest eigenvalue, in m/N.
+        eigenvalue: f64,
+        /// Its largest entry, in m/N.
+        largest: f64,
+    },
+
     /// A number that should point at a body, or at something of it, does not.
     #[error("{place}: {what} {index} does not exist; expected less than {count}")]
     UnknownIndex {

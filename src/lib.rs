@@ -47,7 +47,7 @@ pub use condensation::ContactProblem;
 pub use dpana::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
-pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep};
+pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep, sweep_watched};
 pub use scene::Scene;
 pub use study::study;
 pub use verify::verify;

@@ -1,11 +1,14 @@
 //! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge; a load history
 //! goes round the last three.
 
+mod halving;
 mod limit;
 mod steps;
+mod substep;
 mod sweep;
 
 use std::path::Path;
+use std::sync::Arc;
 use std::time::Instant;
 
 use crate::body::{self, Body};
@@ -17,9 +20,10 @@ use crate::report::vtu::{self, BodyFields};
 use crate::report::{Report, ReportParts, StageWork, Trust, replace_file};
 use crate::scene::{Mechanics, Scene};
 
+pub use halving::Halving;
 pub use limit::limit;
 pub use steps::{SolvedStep, solve_steps};
-pub use sweep::{Variation, sweep};
+pub use sweep::{Variation, sweep, sweep_watched};
 
 /// Solves a scene; one with load steps to its end, or to the first state that is not certified.
 ///
@@ -31,13 +35,13 @@ pub fn solve(scene: &Scene) -> Result<Solution, Error> {
     solve_steps(scene, None, |_| Ok(()))
 }
 
-/// What stays from state to state.
-#[derive(Debug)]
+/// What stays from state to state, and what acts on the bodies; copies share all that is large.
+#[derive(Clone, Debug)]
 struct Setup {
     title: String,
     units: String,
-    bodies: Vec<Body>,
-    pairs: Vec<ContactPair>,
+    bodies: Arc<[Body]>,
+    pairs: Arc<[ContactPair]>,
     settings: Settings,
     condensed: Condensed,
 }
@@ -54,8 +58,8 @@ impl Setup {
         Ok(Self {
             title: scene.title.clone(),
             units: scene.units.clone(),
-            bodies,
-            pairs,
+            bodies: bodies.into(),
+            pairs: pairs.into(),
             settings,
             condensed,
         })
@@ -66,6 +70,16 @@ impl Setup {
         let start = Instant::now();
         let condensed = &self.condensed;
         let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let mut solution = self.measure(outcome, displacements)?;
+        solution.recovery_seconds += seconds;
+        Ok(solution)
+    }
+
+    /// Measures recovered bodies.
+    fn measure(self, outcome: Outcome, displacements: Vec<Vec<f64>>) -> Result<Solution, Error> {
+        let start = Instant::now();
+        let condensed = &self.condensed;
         let states = self.body_states(&outcome.reaction, &displacements);
         let balances = states.iter().map(kkt::balance).collect::<Result<_, _>>()?;
         let problem = condensed.problem();
@@ -183,6 +197,7 @@ impl Solution {
     /// None for a solution of [`solve`].
     pub fn report(&self) -> Result<Report, Error> {
         let work = self.setup.condensed.work();
+        let halving = self.step.as_ref().and_then(SolvedStep::halving);
         let failure = self.outcome.failure.iter();
         let motions: Vec<_> = failure
             .flat_map(|failure| self.setup.condensed.motions(&failure.apparent))
@@ -209,7 +224,9 @@ impl Solution {
             },
             origins: self.step.as_ref().map_or(&[], |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
-            notes: &[],
+            notes: &halving
+                .and_then(Halving::note)
+                .map_or_else(Vec::new, |note| vec![note]),
         })
     }
 

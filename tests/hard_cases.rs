@@ -130,7 +130,7 @@ fn a_tolerance_below_round_off_ends_soon_and_says_so() {
     };
     let outcome = solve(&square_problem(48, 0.2, 1.0), &settings).unwrap();
     let Some(Shortfall::RoundOff { floor }) = outcome.shortfall else {
-        panic!("{:?}", outcome.shortfall);
+        unreachable!("{:?}", outcome.shortfall);
     };
     let residual = outcome.verdict.certificate.residual();
     assert!(
@@ -154,7 +154,7 @@ fn contacts_that_can_hardly_be_told_apart_are_named_with_their_condition() {
     let outcome = solved(&blocks(&[[[0.0; 2]; 2]], &[1.0, 0.0], 0.5));
     assert_eq!(outcome.status, Status::NotConverged);
     let Some(Shortfall::IllConditioned { condition }) = outcome.shortfall else {
-        panic!("{:?}", outcome.shortfall);
+        unreachable!("{:?}", outcome.shortfall);
     };
     assert!(condition.is_infinite());
 }

@@ -192,6 +192,26 @@ fn a_history_taken_on_is_the_history_unbroken_bit_for_bit() {
 }
 
 #[test]
+fn what_comes_after_a_state_may_change() {
+    let mut states = Vec::new();
+    let mut stated = press_and_rock();
+    solve_steps(&scene(&block(&stated)), None, |solution| {
+        states.push(solution.saved_state().unwrap());
+        Ok(())
+    })
+    .unwrap();
+    // As it was until 2, and then on in the same direction instead of back.
+    stated["factors"]["bodies[0].supports[1]"] = json!([[1, 0], [2, 1.4], [4, 3]]);
+    stated["at"] = json!(stated["at"].as_array().unwrap()[..25]);
+    let changed = scene(&block(&stated));
+    let unbroken = solve(&changed).unwrap();
+    let taken_on = solve_steps(&changed, Some(&states[19]), |_| Ok(())).unwrap();
+    assert_eq!(unbroken.outcome().reaction, taken_on.outcome().reaction);
+    assert_eq!(unbroken.saved_state(), taken_on.saved_state());
+    assert_ne!(taken_on.saved_state().as_ref(), Some(&states[24]));
+}
+
+#[test]
 fn a_state_of_another_scene_is_refused() {
     let rocked = scene(&block(&press_and_rock()));
     let mut first = None;
@@ -207,6 +227,24 @@ fn a_state_of_another_scene_is_refused() {
     };
     let other = scene(&block(&json!({"at": [0.2, 0.3]})));
     assert!(refused(&other, &first).contains("state: step 1 at 0.1 is not accepted"));
+    let mut slippery = block(&press_and_rock());
+    slippery["contacts"][0]["friction"] = json!(0.3);
+    let said = refused(&scene(&slippery), &first);
+    assert!(
+        said.contains("a state of other bodies or contacts"),
+        "{said}"
+    );
+    let mut soft = block(&press_and_rock());
+    soft["bodies"][0]["materials"][0]["young"] = json!(1001);
+    assert!(refused(&scene(&soft), &first).contains("other bodies"));
+    // The row at 1 is on the way to the instant 0.1.
+    let mut harder = press_and_rock();
+    harder["factors"]["bodies[0].supports[0]"] = json!([[0, 0], [1, 2]]);
+    let said = refused(&scene(&block(&harder)), &first);
+    assert!(
+        said.contains("other instants, factors or motions up to 0.1"),
+        "{said}"
+    );
     assert!(refused(&scene(&block(&Value::Null)), &first).contains("a scene with steps"));
     let mut short = first.clone();
     short.reaction.pop();

@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use dpana::condensation::{ContactProblem, Operator};
-use dpana::dpana::{Outcome, Settings, Status, solve, solve_from};
+use dpana::dpana::{Outcome, Settings, Status, solve, solve_from, solve_near};
 use dpana::kkt::ContactStatus;
 use faer::linalg::solvers::Solve;
 use faer::{Mat, mat};
@@ -271,6 +271,15 @@ fn a_step_that_does_not_fit_is_refused_by_name() {
     assert!(short.to_string().contains("reaction: expected 10"));
     assert!(solve_from(&problem, &settings, &[f64::NAN; 10], &[]).is_err());
     assert!(solve_from(&problem, &settings, &[0.0; 10], &[1.0]).is_err());
+    let solved = certified(&problem, None);
+    assert!(solve_near(&problem, &settings, &solved).is_ok());
+    let mut broken = solved.clone();
+    broken.verdict.displacement[3] = f64::INFINITY;
+    let broken = solve_near(&problem, &settings, &broken).unwrap_err();
+    assert!(broken.to_string().contains("displacement[3]"), "{broken}");
+    let mut short = solved;
+    short.reaction.pop();
+    assert!(solve_near(&problem, &settings, &short).is_err());
     assert!(problem.with_friction(vec![-1.0; 5]).is_err());
     assert!(problem.with_initial_gap(vec![0.0; 4]).is_err());
 }

@@ -108,11 +108,8 @@ fn a_history_taken_on_from_a_file_ends_in_the_same_report() {
     assert_eq!(rest[0], whole[0]);
     assert_eq!(rest[1..], whole[11..]);
 
-    fs::write(
-        folder.join("damaged.json"),
-        "{\"steps\": 3, \"at\": \"soon\"}",
-    )
-    .unwrap();
+    let damaged = "{\"bodies\": 1, \"history\": 1, \"steps\": 3, \"at\": \"soon\"}";
+    fs::write(folder.join("damaged.json"), damaged).unwrap();
     let said = refused(&folder, &["solve", SCENE, "--restart", "damaged.json"]);
     assert!(
         said.contains("damaged.json:1") && said.contains("`soon` is no number"),
@@ -120,6 +117,80 @@ fn a_history_taken_on_from_a_file_ends_in_the_same_report() {
     );
     let said = refused(&folder, &["solve", SCENE, "--restart", "absent.json"]);
     assert!(said.contains("--restart absent.json"), "{said}");
+}
+
+#[test]
+fn an_interrupted_history_loses_the_step_in_progress_and_no_more() {
+    let folder = folder("steps_interrupted");
+    let outputs = ["--vtu", "pad.vtu", "--state", "state.json"];
+    let whole = ["--table", "whole.csv", "--vtu", "whole.vtu"];
+    solved(&folder, &whole);
+    let whole = fs::read_to_string(folder.join("whole.csv")).unwrap();
+    for table in ["t.csv", "t.json"] {
+        // A folder stands where the tenth step would write.
+        fs::create_dir(folder.join("pad_0010.vtu")).unwrap();
+        let outputs = [&outputs[..], &["--table", table]].concat();
+        let said = refused(&folder, &[&["solve", SCENE], &outputs[..]].concat());
+        assert!(said.contains("pad_0010.vtu"), "{said}");
+        let series = fs::read_to_string(folder.join("pad.pvd")).unwrap();
+        assert_eq!(series.matches("<DataSet").count(), 9);
+        if table == "t.csv" {
+            let rows = fs::read_to_string(folder.join(table)).unwrap();
+            assert!(whole.starts_with(&rows) && rows.lines().count() == 11);
+        }
+        // Taken on, its files end as those of the history that was not interrupted.
+        fs::remove_dir(folder.join("pad_0010.vtu")).unwrap();
+        solved(
+            &folder,
+            &[&outputs[..], &["--restart", "state.json"]].concat(),
+        );
+        let series = fs::read_to_string(folder.join("pad.pvd")).unwrap();
+        let expected = fs::read_to_string(folder.join("whole.pvd")).unwrap();
+        assert_eq!(series, expected.replace("whole_", "pad_"));
+        for file in ["0009.vtu", "0010.vtu", "0018_contact.vtu"] {
+            let [found, expected] = ["pad_", "whole_"]
+                .map(|name| fs::read(folder.join(format!("{name}{file}"))).unwrap());
+            assert!(found == expected, "{file}");
+        }
+        fs::remove_file(folder.join("pad_0010.vtu")).unwrap();
+    }
+    assert_eq!(fs::read_to_string(folder.join("t.csv")).unwrap(), whole);
+    solved(&folder, &["--table", "whole.json"]);
+    let [found, expected] =
+        ["t.json", "whole.json"].map(|file| fs::read_to_string(folder.join(file)).unwrap());
+    assert!(found == expected);
+    // Any other file in its place is left alone.
+    fs::write(folder.join("notes.csv"), "remember\n").unwrap();
+    let said = refused(
+        &folder,
+        &[
+            "solve",
+            SCENE,
+            "--restart",
+            "state.json",
+            "--table",
+            "notes.csv",
+        ],
+    );
+    assert!(
+        said.contains("--table notes.csv: has no column `step`"),
+        "{said}"
+    );
+    assert_eq!(
+        fs::read_to_string(folder.join("notes.csv")).unwrap(),
+        "remember\n"
+    );
+}
+
+#[test]
+fn nothing_but_the_answer_is_said_where_nobody_watches() {
+    let folder = folder("steps_quiet");
+    let output = dpana(&folder, &["solve", SCENE]);
+    assert!(output.status.success() && output.stderr.is_empty());
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/ssnv128.json");
+    let vary = ["--vary", "friction=0.5,1", "--out", "t.csv"];
+    let output = dpana(&folder, &[&["sweep", scene], &vary[..]].concat());
+    assert!(output.status.success() && output.stderr.is_empty());
 }
 
 #[test]
@@ -161,6 +232,11 @@ fn outputs_and_values_that_make_no_sense_are_refused() {
         &["sweep", SCENE, "--vary", "gap=0", "--out", "t.csv"],
     );
     assert!(said.contains("a scene without steps"), "{said}");
+    let said = refused(&folder, &["limit", SCENE]);
+    assert!(
+        said.contains("steps: a load history is not accepted"),
+        "{said}"
+    );
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 0);
 }
 

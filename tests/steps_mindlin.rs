@@ -7,7 +7,7 @@ mod stacks;
 use std::f64::consts::PI;
 
 use dpana::body::{CellKind, Mesh, gmsh, rectangle};
-use dpana::report::Report;
+use dpana::report::{Ledger, Report};
 use dpana::scene::SceneSteps;
 use dpana::{Scene, Status, solve_steps};
 
@@ -157,6 +157,32 @@ fn departure(report: &Report, field: impl Fn(f64) -> f64, size: impl Fn(f64) -> 
     (error / sum).sqrt()
 }
 
+/// L2 differences from a field, over the length of contact: of the shear, linear between its nodes,
+/// and of what is linear between the field's own values at the nodes.
+fn between_nodes(report: &Report, field: impl Fn(f64) -> f64) -> [f64; 2] {
+    const POINTS: u32 = 200;
+    let nodes = report.contacts.iter().map(|contact| {
+        let shear = -contact.friction_traction.as_ref().unwrap()[0];
+        (contact.position[0], shear)
+    });
+    let mut nodes: Vec<(f64, f64)> = nodes.collect();
+    nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut squares = [0.0; 2];
+    for ends in nodes.windows(2) {
+        let [(left, q), (right, r)] = [ends[0], ends[1]];
+        let exact = [field(left), field(right)];
+        for k in 0..POINTS {
+            let part = (f64::from(k) + 0.5) / f64::from(POINTS);
+            let weight = (right - left) / f64::from(POINTS);
+            let at = field(left + part * (right - left));
+            for (square, [a, b]) in squares.iter_mut().zip([[q, r], exact]) {
+                *square += weight * (a + part * (b - a) - at).powi(2);
+            }
+        }
+    }
+    squares.map(f64::sqrt)
+}
+
 /// Half the length that sticks, in mm.
 fn stick(report: &Report) -> f64 {
     0.5 * (report.totals.contact_area - report.totals.slip_area)
@@ -181,12 +207,11 @@ fn pressed_then_sheared(meshes: [Mesh; 2], count: u32) -> Vec<Report> {
 
 #[test]
 fn the_shipped_pair_sticks_where_cattaneo_and_mindlin_say() {
-    // Eleven cells per half-width: the stick zone is known to one of them, the shear, on a zone of
-    // slip that begins with one and a half of them, to a part of its bound.
-    for (report, ratio) in pressed_then_sheared(shipped(), 40)
-        .iter()
-        .zip([0.25, 0.5, 0.75, 0.9])
-    {
+    // Eleven cells across the contact. Between its nodes not even the exact shear, made linear, is
+    // nearer than 23, 12, 8 and 6 % of itself, for its slope is infinite at ±c and ±a: the computed
+    // one is held against that. In the sum over nodes it misses by 9, 6, 3.5 and 2.7 %.
+    let ratios = [0.25, 0.5, 0.75, 0.9];
+    for (report, ratio) in pressed_then_sheared(shipped(), 40).iter().zip(ratios) {
         let (load, shear) = resultants(report);
         assert!((shear / (FRICTION * load) - ratio).abs() < 0.01);
         let hertz = Hertz::new(load);
@@ -196,9 +221,14 @@ fn the_shipped_pair_sticks_where_cattaneo_and_mindlin_say() {
             "{ratio}: {} {c}",
             stick(report)
         );
-        let bound = |x| FRICTION * hertz.at(x);
-        let error = departure(report, |x| hertz.cattaneo(c, x), bound);
+        let field = |x| hertz.cattaneo(c, x);
+        let [error, of_exact] = between_nodes(report, field);
+        assert!(error < 1.05 * of_exact, "{ratio}: {error} {of_exact}");
+        let error = departure(report, field, |x| FRICTION * hertz.at(x));
         assert!(error < 0.04, "{ratio}: {error}");
+        let error = departure(report, field, field);
+        let most = if ratio < 0.7 { 0.1 } else { 0.04 };
+        assert!(error < most, "{ratio}: {error}");
     }
 }
 
@@ -283,13 +313,14 @@ fn pressed_on_after_shear_the_first_shear_stays() {
 
 /// A cycle of Q between its extremes in steps of 1/`parts` of a quarter; reports from the first
 /// extreme on.
-fn cycle(parts: u32) -> Vec<Report> {
+fn cycle(parts: u32, resolve: Option<f64>) -> Vec<Report> {
     let at: Vec<f64> = [1.0, 2.0]
         .into_iter()
         .chain(instants(2.0, 6.0, 4 * parts))
         .collect();
     let along = [[1.0, 0.0], [2.0, 0.6], [4.0, -0.6], [6.0, 0.6]];
-    let scene = mindlin(shipped(), &at, &[[0.0, 0.0], [1.0, 1.0]], &along);
+    let mut scene = mindlin(shipped(), &at, &[[0.0, 0.0], [1.0, 1.0]], &along);
+    scene.steps.as_mut().unwrap().resolve = resolve;
     reports(&scene)[1..].to_vec()
 }
 
@@ -306,33 +337,110 @@ fn area(reports: &[Report]) -> f64 {
         .sum()
 }
 
+/// What a cycle adds to the ledger; it must close, force by force.
+fn round(reports: &[Report]) -> Ledger {
+    let (first, last) = (&reports[0], &reports[reports.len() - 1]);
+    for (a, b) in first.contacts.iter().zip(&last.contacts) {
+        for axis in 0..2 {
+            assert!((a.force[axis] - b.force[axis]).abs() < 1e-8 * last.totals.normal);
+        }
+    }
+    for report in reports {
+        assert!(report.step.as_ref().unwrap().ledger.dissipation >= 0.0);
+    }
+    let [before, after] = [first, last].map(|report| report.step.as_ref().unwrap().total);
+    let cycle = Ledger {
+        loads: after.loads - before.loads,
+        supports: after.supports - before.supports,
+        obstacles: after.obstacles - before.obstacles,
+        elastic: after.elastic - before.elastic,
+        dissipation: after.dissipation - before.dissipation,
+        closure: after.closure - before.closure,
+    };
+    assert!(cycle.elastic.abs() < 1e-8 * cycle.dissipation);
+    cycle
+}
+
 #[test]
 fn a_cycle_of_shear_closes_and_its_area_is_what_friction_dissipates() {
     let mut misfits = Vec::new();
-    for parts in [10, 40, 1600] {
-        let reports = cycle(parts);
-        let (first, last) = (&reports[0], &reports[reports.len() - 1]);
-        for (a, b) in first.contacts.iter().zip(&last.contacts) {
-            for axis in 0..2 {
-                assert!((a.force[axis] - b.force[axis]).abs() < 1e-8 * last.totals.normal);
-            }
-        }
-        let [before, after] = [first, last].map(|report| report.step.as_ref().unwrap().total);
-        let dissipated = after.dissipation - before.dissipation;
-        assert!((after.elastic - before.elastic).abs() < 1e-8 * dissipated);
-        let area = area(&reports);
+    let mut dissipated = Vec::new();
+    for parts in [10, 40, 160] {
+        let reports = cycle(parts, None);
+        let (round, area) = (round(&reports), area(&reports));
         // The work of the supports is that area, and what it is not is said to be open.
-        assert!(((after.supports - before.supports) / area - 1.0).abs() < 1e-9);
-        let open = after.closure - before.closure;
-        assert!((area - dissipated - open).abs() < 1e-8 * dissipated);
-        for report in &reports {
-            assert!(report.step.as_ref().unwrap().ledger.dissipation >= 0.0);
-        }
-        misfits.push((area / dissipated - 1.0).abs());
+        assert!((round.supports / area - 1.0).abs() < 1e-9);
+        assert!((area - round.dissipation - round.closure).abs() < 1e-8 * round.dissipation);
+        misfits.push((area / round.dissipation - 1.0).abs());
+        dissipated.push(round.dissipation);
     }
-    // Chords cut the corners where contacts begin to slip.
+    // Chords cut the corners where contacts begin to slip, by the square of the steps; what
+    // friction dissipates is known from the first on.
     assert!(
-        misfits[0] < 2e-3 && misfits[1] < 2e-4 && misfits[2] < 1e-6,
+        misfits[0] < 2e-3 && misfits[1] < 2e-4 && misfits[2] < 1e-5,
         "{misfits:?}"
     );
+    assert!(
+        (dissipated[0] / dissipated[2] - 1.0).abs() < 1e-6,
+        "{dissipated:?}"
+    );
+}
+
+#[test]
+fn halved_where_contacts_begin_to_slip_the_work_of_a_cycle_is_its_dissipation() {
+    let reports = cycle(5, Some(1e-5));
+    let round = round(&reports);
+    let misfit = round.supports / round.dissipation - 1.0;
+    assert!(misfit.abs() < 1e-6, "{misfit}");
+    let halvings = reports[1..]
+        .iter()
+        .map(|report| report.step.as_ref().unwrap().halving.unwrap());
+    let halvings: Vec<_> = halvings.collect();
+    assert!(halvings.iter().all(|halving| halving.resolved));
+    // Equal steps take 6400 for that.
+    let parts: usize = halvings.iter().map(|halving| halving.parts).sum();
+    assert!(parts <= 100, "{parts}");
+}
+
+/// Sheared to an extreme Q₀, back to the other and to the first again, against the field of Q₀ with
+/// twice that of half the change from the last extreme on top (Johnson, sec. 7.4; Jaeger, New
+/// Solutions in Contact Mechanics, WIT Press 2005), on contacts that stand `size` mm apart.
+///
+/// The end of the zone of stick lies between two contacts, and there the field is steepest: the
+/// error is that of where it lies, of first order.
+fn sheared_to_and_fro(meshes: [Mesh; 2], size: f64) {
+    let at = instants(0.0, 1.0, 40)
+        .chain([2.0])
+        .chain(instants(2.0, 6.0, 16));
+    let at: Vec<f64> = at.collect();
+    let along = [[1.0, 0.0], [2.0, 0.9], [4.0, -0.9], [6.0, 0.9]];
+    let scene = mindlin(meshes, &at, &[[0.0, 0.0], [1.0, 1.0]], &along);
+    let reports = reports(&scene)[40..].to_vec();
+    let (load, extreme) = resultants(&reports[0]);
+    assert!((0.6..0.7).contains(&(extreme / (FRICTION * load))));
+    for (number, report) in reports.iter().enumerate().skip(1) {
+        let way = if number <= 8 { 1.0 } else { -1.0 };
+        let (load, shear) = resultants(report);
+        let hertz = Hertz::new(load);
+        let first = hertz.stick(load, extreme);
+        let back = hertz.stick(load, 0.5 * (extreme - way * shear));
+        let field = |x| way * (hertz.cattaneo(first, x) - 2.0 * hertz.cattaneo(back, x));
+        let error = departure(report, field, |x| FRICTION * hertz.at(x));
+        assert!(error < 0.7 * size, "{number}: {error}");
+        let stuck = stick(report);
+        assert!(
+            (stuck - back).abs() < 0.6 * size,
+            "{number}: {stuck} {back}"
+        );
+    }
+}
+
+#[test]
+fn on_the_shipped_pair_cyclic_shear_superposes_cattaneo_and_mindlin() {
+    sheared_to_and_fro(shipped(), 0.1875);
+}
+
+#[test]
+fn on_a_fine_mesh_cyclic_shear_superposes_cattaneo_and_mindlin() {
+    sheared_to_and_fro(meshed(30.0), 1.0 / 30.0);
 }

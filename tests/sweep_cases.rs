@@ -2,9 +2,10 @@
 #![allow(clippy::unwrap_used, missing_docs)]
 
 use std::process::Command;
+use std::sync::Mutex;
 
 use dpana::report::{Cell, Table};
-use dpana::{Scene, Variation, solve, sweep};
+use dpana::{Scene, Variation, solve, sweep, sweep_watched};
 use serde_json::{Value, json};
 
 fn block() -> Value {
@@ -53,7 +54,7 @@ fn every_case_is_the_scene_solved_alone() {
         table
             .rows
             .iter()
-            .all(|row| row.contains(&Cell::Word("certified")))
+            .all(|row| row.contains(&Cell::Word("certified".into())))
     );
     assert!(
         table
@@ -111,6 +112,77 @@ fn friction_that_the_scene_does_not_have_is_swept_all_the_same() {
 }
 
 #[test]
+fn cases_that_change_no_contact_take_one_newton_step_and_no_cone_program() {
+    // From no gap the body is loaded in proportion: every contact keeps its state and direction.
+    let loaded = |load: &[f64]| {
+        let mut stated = block();
+        stated["contacts"][0]["friction"] = json!(0.2);
+        stated["bodies"][0]["loads"] = json!([{"body_force": [2, -8]}]);
+        sweep(&scene(&stated), &[vary("bodies[0].loads[0]", load)]).unwrap()
+    };
+    let table = loaded(&[1.0, 0.3, 2.5, 7.0, 0.5]);
+    assert!(number(&table, 0, "stick") > 0.0 && number(&table, 0, "slip") > 0.0);
+    assert!(number(&table, 0, "sweeps") == 1.0);
+    for row in 1..5 {
+        assert_eq!(number(&table, row, "sweeps"), 0.0);
+        assert_eq!(number(&table, row, "newton_steps"), 1.0);
+        for column in ["slip_area", "contact_area", "stick", "open"] {
+            assert_eq!(number(&table, row, column), number(&table, 0, column));
+        }
+    }
+    let ratio = number(&table, 3, "normal") / number(&table, 0, "normal");
+    assert!((ratio - 7.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_body_that_only_contact_holds_is_swept_to_where_it_slides_off() {
+    // 2 N press, μ = 0.5: friction carries a push of up to 1 N.
+    let pad = json!({
+        "bodies": [{
+            "mesh": {"rectangle": {"x": [0, 2], "y": [0, 0.5], "cells": [8, 2]}},
+            "model": "plane_strain",
+            "materials": [{"young": 1000, "poisson": 0}],
+            "loads": [{"pressure": 1, "group": "top"}, {"traction": [0.5, 0], "group": "bottom"}]
+        }],
+        "contacts": [{"group": "bottom", "friction": 0.5,
+            "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}}}]
+    });
+    let pushes = [0.0, 0.9, -0.5, 1.1, 0.3, -0.99];
+    let table = sweep(&scene(&pad), &[vary("bodies[0].loads[1]", &pushes)]).unwrap();
+    for (row, push) in pushes.into_iter().enumerate() {
+        let status = if push > 1.0 {
+            "no_equilibrium"
+        } else {
+            "certified"
+        };
+        assert!(
+            table.rows[row].contains(&Cell::Word(status.into())),
+            "{push}"
+        );
+        if push < 1.0 {
+            assert!((number(&table, row, "friction_x") + push).abs() < 1e-10);
+            assert!((number(&table, row, "normal") - 2.0).abs() < 1e-10);
+        }
+    }
+}
+
+#[test]
+fn progress_counts_every_case_once() {
+    let seen = Mutex::new(Vec::new());
+    let variations = [
+        vary("gap", &[0.0, 1e-4, 2e-4]),
+        vary("friction", &[0.1, 0.2]),
+    ];
+    sweep_watched(&scene(&block()), &variations, |done, all| {
+        seen.lock().unwrap().push((done, all));
+    })
+    .unwrap();
+    let mut seen = seen.into_inner().unwrap();
+    seen.sort_unstable();
+    assert_eq!(seen, (1..=6).map(|done| (done, 6)).collect::<Vec<_>>());
+}
+
+#[test]
 fn what_cannot_be_varied_is_refused_by_name() {
     let refused = |variation: Variation| {
         sweep(&scene(&block()), &[variation])
@@ -123,6 +195,9 @@ fn what_cannot_be_varied_is_refused_by_name() {
     assert!(refused(vary("friction", &[0.1, -0.1])).contains("friction: -0.1 is not accepted"));
     assert!(refused(vary("gap", &[])).contains("gap: empty"));
     assert!(refused(vary("gap", &[f64::NAN])).contains("NaN is not a finite number"));
+    let twice = [vary("gap", &[0.0]), vary("gap", &[1.0])];
+    let refused_twice = sweep(&scene(&block()), &twice).unwrap_err().to_string();
+    assert!(refused_twice.contains("`gap` twice"), "{refused_twice}");
     let mut stepped = block();
     stepped["steps"] = json!({"at": [1]});
     let refused = sweep(&scene(&stepped), &[vary("gap", &[0.0])])
@@ -146,7 +221,7 @@ fn the_table_does_not_depend_on_the_number_of_threads() {
                 "--out",
                 out.to_str().unwrap(),
             ])
-            .args(["--vary", "friction=0.1:0.9:17", "--vary", "gap=0,1e-4"])
+            .args(["--vary", "gap=0,1e-4", "--vary", "friction=0.1:0.9:30"])
             .env("RAYON_NUM_THREADS", threads)
             .output()
             .unwrap();
@@ -157,18 +232,18 @@ fn the_table_does_not_depend_on_the_number_of_threads() {
         );
         assert_eq!(
             String::from_utf8_lossy(&done.stdout),
-            "34 cases, 34 certified\n"
+            "60 cases, 60 certified\n"
         );
         std::fs::read_to_string(out).unwrap()
     });
     std::fs::remove_dir_all(&folder).unwrap();
-    assert_eq!(tables[0].lines().count(), 35);
+    assert_eq!(tables[0].lines().count(), 61);
     assert!(
         tables[0]
             .lines()
-            .nth(2)
+            .nth(31)
             .unwrap()
-            .starts_with("0.1,0.0001,certified,")
+            .starts_with("0.0001,0.1,certified,")
     );
     assert!(tables[0] == tables[1] && tables[0] == tables[2]);
 }

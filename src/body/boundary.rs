@@ -63,13 +63,15 @@ impl Mesh {
     pub fn boundary_facets(&self) -> Vec<Facet> {
         let (offsets, sides) = self.sides_by_smallest_node();
         let mut outer = Vec::new();
-        let mut keys = Vec::new();
+        let mut keyed = Vec::new();
         for range in offsets.windows(2) {
-            let sides = &sides[range[0]..range[1]];
-            keys.clear();
-            keys.extend(sides.iter().map(|side| key_of(self.cell(side.0), side.1)));
-            for (side, key) in sides.iter().zip(&keys) {
-                if keys.iter().filter(|other| *other == key).count() == 1 {
+            let of_node = sides[range[0]..range[1]].iter();
+            keyed.clear();
+            keyed.extend(of_node.map(|&side| (key_of(self.cell(side.0), side.1), side)));
+            // Sorted, because one node may be in most of the cells.
+            keyed.sort_unstable();
+            for owned in keyed.chunk_by(|a, b| a.0 == b.0) {
+                if let [(_, side)] = owned {
                     outer.push(*side);
                 }
             }
@@ -101,7 +103,7 @@ impl Mesh {
     }
 
     /// Every (cell, local facet), sorted into one bucket per smallest node: facets that
-    /// coincide share a bucket, and buckets are small.
+    /// coincide share a bucket.
     fn sides_by_smallest_node(&self) -> (Vec<usize>, Vec<(usize, usize)>) {
         let mut offsets = vec![0; self.nodes.len() + 1];
         for cell in self.cells() {

@@ -54,6 +54,19 @@ impl Dilatation {
     }
 }
 
+impl Body {
+    /// Whether some cell's energy sees a mean dilatation: another displacement, such as one from a
+    /// coarser mesh, then has little to do with its stress.
+    #[must_use]
+    pub fn averages_dilatation(&self) -> bool {
+        let mut cells = self.mesh.cells().zip(&self.material_of_cell);
+        cells.any(|(cell, &material)| {
+            let material = &self.materials[material];
+            Dilatation::of(cell.kind, self.model, material) != Dilatation::Pointwise
+        })
+    }
+}
+
 /// Volume of a cell and `ḡ_a = (1/V) ∫ ∇N_a dV` (B4).
 pub(crate) fn mean_gradients(points: &[Mapped]) -> (f64, [Vector3<f64>; MOST_NODES]) {
     let volume: f64 = points.iter().map(|point| point.volume).sum();

@@ -54,7 +54,7 @@ pub use rigid_modes::{FreeModes, RigidMode, free_modes};
 pub use stiffness::stiffness;
 pub use stress::{cell_stress, nodal_stress, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
-pub use support::prescribed;
+pub use support::{prescribed, prescribed_by};
 
 /// How strain and stress live in the body's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -10,10 +10,9 @@
 //! is the energy norm of the error (Zienkiewicz, Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337–357).
 //! Next to supports, corners and the ends of the contact it is a measure, not a bound.
 
-use std::collections::HashMap;
-
 use nalgebra::{Matrix3, Vector3};
 
+use super::cell::MOST_NODES;
 use super::dilatation::Dilatation;
 use super::quadrature::{Mapped, mapped, rule};
 use super::{Body, Cell, Lame, Material, Model, cell_stress};
@@ -33,48 +32,62 @@ pub struct StressRecovery {
 #[must_use]
 pub fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
     let centres = cell_stress(body, displacement);
-    let recovered = recovered(body, &centres);
+    let volumes: Vec<f64> = (0..centres.len())
+        .map(|cell| body.mesh.volume(cell))
+        .collect();
+    let mut by_material: Vec<usize> = (0..centres.len()).collect();
+    by_material.sort_by_key(|&cell| body.material_of_cell[cell]);
+    let mut recovered = vec![([0.0; 6], 0.0); body.mesh.nodes.len()];
     let mut sum = StressRecovery::default();
-    let cells = body.mesh.cells().zip(&body.material_of_cell).zip(&centres);
-    for (index, ((cell, &material), centre)) in cells.enumerate() {
-        let nodes = cell.nodes.iter();
-        let smooth: Vec<[f64; 6]> = nodes
-            .map(|node| {
-                recovered
-                    .get(&(material, *node))
-                    .copied()
-                    .unwrap_or(*centre)
-            })
-            .collect();
-        let compliance = Compliance(&body.materials[material]);
-        let of_cell = if cell.kind.is_tensor_product() {
-            in_tensor_product(body, displacement, cell, material, &smooth)
-        } else {
-            in_simplex(&compliance, body.mesh.volume(index), centre, &smooth)
-        };
-        sum.error += body.model.depth() * of_cell.error;
-        sum.energy += body.model.depth() * of_cell.energy;
+    let same = |a: &usize, b: &usize| body.material_of_cell[*a] == body.material_of_cell[*b];
+    for cells in by_material.chunk_by(same) {
+        recover(body, cells, &centres, &volumes, &mut recovered);
+        for &index in cells {
+            let cell = body.mesh.cell(index);
+            let mut smooth = [[0.0; 6]; MOST_NODES];
+            for (stress, node) in smooth.iter_mut().zip(cell.nodes) {
+                *stress = recovered[*node].0;
+            }
+            let smooth = &smooth[..cell.nodes.len()];
+            let material = &body.materials[body.material_of_cell[index]];
+            let of_cell = if cell.kind.is_tensor_product() {
+                in_tensor_product(body, displacement, cell, material, smooth)
+            } else {
+                in_simplex(
+                    &Compliance(material),
+                    volumes[index],
+                    &centres[index],
+                    smooth,
+                )
+            };
+            sum.error += body.model.depth() * of_cell.error;
+            sum.energy += body.model.depth() * of_cell.energy;
+        }
     }
     sum
 }
 
-/// `σ*_a` per material and node.
-fn recovered(body: &Body, centres: &[[f64; 6]]) -> HashMap<(usize, usize), [f64; 6]> {
-    let mut sums: HashMap<(usize, usize), ([f64; 6], f64)> = HashMap::new();
-    for (index, stress) in centres.iter().enumerate() {
-        let (volume, material) = (body.mesh.volume(index), body.material_of_cell[index]);
-        for node in body.mesh.cell(index).nodes {
-            let (sum, weight) = sums.entry((material, *node)).or_default();
-            for (total, component) in sum.iter_mut().zip(stress) {
-                *total += volume * component;
+/// `σ*_a` at the nodes of some cells, with the volume around; other nodes keep what they have.
+fn recover(
+    body: &Body,
+    cells: &[usize],
+    centres: &[[f64; 6]],
+    volumes: &[f64],
+    recovered: &mut [([f64; 6], f64)],
+) {
+    let nodes = || cells.iter().flat_map(|&cell| body.mesh.cell(cell).nodes);
+    for node in nodes() {
+        recovered[*node] = ([0.0; 6], 0.0);
+    }
+    for &cell in cells {
+        for node in body.mesh.cell(cell).nodes {
+            let (mean, weight) = &mut recovered[*node];
+            *weight += volumes[cell];
+            for (mean, component) in mean.iter_mut().zip(&centres[cell]) {
+                *mean += volumes[cell] / *weight * (component - *mean);
             }
-            *weight += volume;
         }
     }
-    let means = sums.into_iter();
-    means
-        .map(|(at, (sum, weight))| (at, sum.map(|total| total / weight)))
-        .collect()
 }
 
 /// σ is constant and `σ* − σ = Σ N_a d_a`, with `∫ N_a N_b dV = V (1 + δ_ab)/(n (n + 1))` for n nodes.
@@ -105,23 +118,21 @@ fn in_tensor_product(
     body: &Body,
     displacement: &[f64],
     cell: Cell<'_>,
-    material: usize,
+    material: &Material,
     smooth: &[[f64; 6]],
 ) -> StressRecovery {
-    let (material, points) = (&body.materials[material], rule(cell.kind));
-    let (compliance, lame) = (Compliance(material), material.lame(body.model));
-    let all = mapped(&body.mesh, cell);
-    let gradients = all[..points.len()].iter().map(|point| {
-        let gradient = gradient(body, displacement, cell, point);
-        (point.volume, gradient)
-    });
-    let gradients: Vec<(f64, Matrix3<f64>)> = gradients.collect();
-    let volume: f64 = gradients.iter().map(|(volume, _)| volume).sum();
-    let weighted = gradients.iter().map(|(volume, h)| volume * h.trace());
-    let mean = weighted.sum::<f64>() / volume;
+    let (points, lame) = (rule(cell.kind), material.lame(body.model));
+    let (compliance, all) = (Compliance(material), mapped(&body.mesh, cell));
+    let gradients = all.map(|point| gradient(body, displacement, cell, &point));
+    let all = &all[..points.len()];
+    let weighted = all.iter().zip(&gradients);
+    let mean = weighted
+        .map(|(point, h)| point.volume * h.trace())
+        .sum::<f64>()
+        / all.iter().map(|point| point.volume).sum::<f64>();
     let pointwise = Dilatation::of(cell.kind, body.model, material) == Dilatation::Pointwise;
     let mut sum = StressRecovery::default();
-    for (point, (volume, gradient)) in points.iter().zip(&gradients) {
+    for ((point, mapped), gradient) in points.iter().zip(all).zip(&gradients) {
         let theta = if pointwise { gradient.trace() } else { mean };
         let stress = stress(lame, body.model, gradient, theta);
         let mut at_point = [0.0; 6];
@@ -130,8 +141,8 @@ fn in_tensor_product(
                 *total += shape * component;
             }
         }
-        sum.error += volume * compliance.square(&minus(&at_point, &stress));
-        sum.energy += volume * compliance.square(&stress);
+        sum.error += mapped.volume * compliance.square(&minus(&at_point, &stress));
+        sum.energy += mapped.volume * compliance.square(&stress);
     }
     sum
 }
@@ -163,12 +174,13 @@ fn minus(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
 struct Compliance<'a>(&'a Material);
 
 impl Compliance<'_> {
-    /// `σ : C⁻¹ : σ = ((1 + ν) σ : σ − ν (tr σ)²)/E`, in J/m³.
+    /// `σ : C⁻¹ : σ = ((1 + ν) s : s + (1 − 2ν) (tr σ)²/3)/E` with the deviator s, in J/m³.
     fn square(&self, [xx, yy, zz, yz, xz, xy]: &[f64; 6]) -> f64 {
         let Material { young, poisson } = self.0;
-        let product = xx * xx + yy * yy + zz * zz + 2.0 * (yz * yz + xz * xz + xy * xy);
         let trace = xx + yy + zz;
-        ((1.0 + poisson) * product - poisson * trace * trace) / young
+        let normal = [xx, yy, zz].map(|s| (s - trace / 3.0).powi(2));
+        let deviator = normal.iter().sum::<f64>() + 2.0 * (yz * yz + xz * xz + xy * xy);
+        ((1.0 + poisson) * deviator + (1.0 - 2.0 * poisson) * trace * trace / 3.0) / young
     }
 }
 

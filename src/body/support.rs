@@ -10,11 +10,24 @@ use crate::error::Error;
 /// [`Error::ContradictorySupports`] if two supports give one component different values
 /// (equal ones are fine), [`Error::UnknownIndex`] for a node that does not exist.
 pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
-    let (axes, nodes) = (body.mesh.dimension, body.mesh.nodes.len());
+    let mesh = &body.mesh;
+    prescribed_by(&body.supports, mesh.dimension, mesh.nodes.len())
+}
+
+/// The same by some supports of a body of `nodes` nodes that may move along `axes` axes.
+///
+/// # Errors
+///
+/// Those of [`prescribed`].
+pub fn prescribed_by(
+    supports: &[Support],
+    axes: usize,
+    nodes: usize,
+) -> Result<Vec<Option<f64>>, Error> {
     // Per unknown the number of the first support that holds it, to name it if another disagrees.
     let mut holder: Vec<Option<usize>> = vec![None; axes * nodes];
     let mut prescribed = vec![None; axes * nodes];
-    for (index, support) in body.supports.iter().enumerate() {
+    for (index, support) in supports.iter().enumerate() {
         for &node in &support.nodes {
             if node >= nodes {
                 return Err(Error::UnknownIndex {
@@ -29,7 +42,7 @@ pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
                 let unknown = axes * node + axis;
                 match (prescribed[unknown], holder[unknown]) {
                     (Some(before), Some(first)) if before != value => {
-                        let places = [&body.supports[first], support];
+                        let places = [&supports[first], support];
                         return Err(contradiction(places, node, axis, [before, value]));
                     }
                     (Some(_), _) => {}

@@ -3,6 +3,7 @@
 mod check;
 mod limit;
 mod outputs;
+mod progress;
 mod schema;
 mod solve;
 mod study;

@@ -12,6 +12,7 @@ use dpana::scene::{SavedState, Scene};
 use dpana::{Solution, Status};
 
 use super::outputs::{check_output, write_table};
+use super::progress::Progress;
 
 #[derive(Args)]
 pub(crate) struct Solve {
@@ -28,6 +29,8 @@ pub(crate) struct Solve {
     #[arg(long, value_name = "FILE")]
     vtu: Option<PathBuf>,
     /// Write the totals of every state to this file: JSON if it ends so, else CSV.
+    ///
+    /// It is whole after every load step, and so are all other files of a history.
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
     /// Draw one column of that table against another to this file, in SVG.
@@ -39,13 +42,20 @@ pub(crate) struct Solve {
     /// Write the state to this file after every load step, to restart from.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
-    /// Take a load history on from the state in this file.
+    /// Take a load history on from the state in this file; what comes after it in the scene may
+    /// have changed.
+    ///
+    /// `--table`, `--plot` and the series of `--vtu` go on from the rows and files that are there
+    /// of earlier steps; where there are none they begin with the first step that is solved.
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
     /// Solve again from N other starts and say whether they end in the same state, and how much
     /// friction the alternation takes (of the last state, where the scene has load steps).
     #[arg(long, value_name = "N")]
     starts: Option<usize>,
+    /// Estimate the error of the stress, which takes one more pass over all cells.
+    #[arg(long)]
+    quality: bool,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -61,22 +71,26 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         None => None,
         Some(path) => Some(saved_state(path)?),
     };
-    let mut states = States::default();
+    let mut states = States::new(arguments, axes, &scene, from.as_ref())?;
+    let progress = Progress::new();
     let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
-        states.add(arguments, axes, solution)
-    })?;
+        if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
+            let (number, all) = (step.number(), steps.at.len());
+            progress.show(&format!("step {number} of {all}, at {}", step.at()));
+        }
+        states.add(solution)
+    });
+    drop(progress);
+    let solution = solution?;
     let mut report = solution.report()?;
     if let Some(starts) = arguments.starts {
         report.trust = solution.trust(starts)?;
     }
+    if arguments.quality {
+        report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
+    }
     if let Some(path) = &arguments.report {
         replace_file(path, &report.to_json())?;
-    }
-    if let Some(path) = &arguments.table {
-        write_table(path, &states.table)?;
-    }
-    if let (Some(path), Some((x, y))) = (&arguments.plot, axes) {
-        replace_file(path, &report::plot(&states.table, x, y)?)?;
     }
     writeln!(io::stdout(), "{}", report.summary().trim_end())?;
     Ok(match solution.status() {
@@ -85,22 +99,45 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     })
 }
 
-/// The states of a solve so far, and what was written of them.
-#[derive(Default)]
-struct States {
+/// The states of a solve so far, and what is written of them.
+struct States<'a> {
+    arguments: &'a Solve,
+    axes: Option<(&'a str, &'a str)>,
     table: Table,
     files: Vec<(f64, PathBuf)>,
 }
 
-impl States {
-    /// Takes up a state and writes what belongs to it alone.
-    fn add(
-        &mut self,
-        arguments: &Solve,
-        axes: Option<(&str, &str)>,
-        solution: &Solution,
-    ) -> Result<(), dpana::Error> {
-        let report = solution.report()?;
+impl<'a> States<'a> {
+    /// None so far, or those of the files that a history taken on finds.
+    fn new(
+        arguments: &'a Solve,
+        axes: Option<(&'a str, &'a str)>,
+        scene: &Scene,
+        from: Option<&SavedState>,
+    ) -> Result<Self, String> {
+        let mut states = Self {
+            arguments,
+            axes,
+            table: Table::default(),
+            files: Vec::new(),
+        };
+        let (Some(from), Some(steps)) = (from, &scene.steps) else {
+            return Ok(states);
+        };
+        if let Some(path) = arguments.table.as_ref().filter(|path| path.exists()) {
+            states.table = rows_before(path, from.steps)?;
+        }
+        if let Some(path) = &arguments.vtu {
+            let numbers = (1..).zip(&steps.at).take(from.steps);
+            let files = numbers.map(|(number, &at)| (at, vtu::step_path(path, number)));
+            states.files = files.filter(|(_, path)| path.exists()).collect();
+        }
+        Ok(states)
+    }
+
+    /// Takes up a state; every file is whole after it.
+    fn add(&mut self, solution: &Solution) -> Result<(), dpana::Error> {
+        let (arguments, report) = (self.arguments, solution.report()?);
         let given = match &report.step {
             None => Vec::new(),
             Some(step) => {
@@ -109,25 +146,55 @@ impl States {
                 number.into_iter().chain(step.driven.clone()).collect()
             }
         };
+        let before = std::mem::take(&mut self.table.columns);
         self.table.push(&given, &report);
-        if let Some((x, y)) = axes {
-            // A column that is not there is known from the first state on.
-            report::plot(&self.table, x, y)?;
-        }
-        if let (Some(path), Some(state)) = (&arguments.state, solution.saved_state()) {
-            replace_file(path, &state.to_json())?;
-        }
-        match (&arguments.vtu, &report.step) {
-            (None, _) => Ok(()),
-            (Some(path), None) => solution.write_vtu(path),
-            (Some(path), Some(step)) => {
-                let of_step = vtu::step_path(path, step.number);
-                solution.write_vtu(&of_step)?;
-                self.files.push((step.at, of_step));
-                replace_file(&path.with_extension("pvd"), &vtu::series(&self.files))
+        if let Some(path) = &arguments.table {
+            if !before.is_empty() && before != self.table.columns {
+                return Err(dpana::Error::NotAccepted {
+                    place: format!("--table {}", path.display()),
+                    found: "a table with other columns".to_owned(),
+                    accepted: "that of the history taken on, or another file".to_owned(),
+                });
             }
+            write_table(path, &self.table)?;
+        }
+        if let (Some(path), Some((x, y))) = (&arguments.plot, self.axes) {
+            replace_file(path, &report::plot(&self.table, x, y)?)?;
+        }
+        if let (Some(path), Some(step)) = (&arguments.vtu, &report.step) {
+            let of_step = vtu::step_path(path, step.number);
+            solution.write_vtu(&of_step)?;
+            self.files.push((step.at, of_step));
+            replace_file(&path.with_extension("pvd"), &vtu::series(&self.files))?;
+        } else if let Some(path) = &arguments.vtu {
+            solution.write_vtu(path)?;
+        }
+        // Last, so that whoever takes the history on from here finds all that came before.
+        match (&arguments.state, solution.saved_state()) {
+            (Some(path), Some(state)) => replace_file(path, &state.to_json()),
+            _ => Ok(()),
         }
     }
+}
+
+/// The rows of a table on disk that belong to the first `steps` steps of a history.
+fn rows_before(path: &Path, steps: usize) -> Result<Table, String> {
+    let refuse = |reason: &str| {
+        format!(
+            "--table {}: {reason}; expected the table of the history taken on, or no file",
+            path.display()
+        )
+    };
+    let text = fs::read_to_string(path).map_err(|error| refuse(&error.to_string()))?;
+    let table = Table::read(&text).ok_or_else(|| refuse("is no table"))?;
+    let numbers = table.column("step");
+    let numbers = numbers.ok_or_else(|| refuse("has no column `step`"))?;
+    let rows = table.rows.into_iter().zip(numbers);
+    let rows = rows.filter(|(_, number)| *number <= steps as f64);
+    Ok(Table {
+        columns: table.columns,
+        rows: rows.map(|(row, _)| row).collect(),
+    })
 }
 
 fn saved_state(path: &Path) -> Result<SavedState, Box<dyn Error>> {

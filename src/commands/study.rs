@@ -2,14 +2,16 @@
 
 use std::error::Error;
 use std::fs;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
 use dpana::report::replace_file;
 use dpana::scene::Scene;
-use dpana::study::{Plan, Progress};
+use dpana::study::{self, Plan};
+
+use super::progress::Progress;
 
 #[derive(Args)]
 pub(crate) struct Study {
@@ -52,12 +54,9 @@ pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     let scene = Scene::from_file(&arguments.scene)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("--out {}: {error}", arguments.out.display()))?;
-    let shown = io::stderr().is_terminal();
-    let study = dpana::study(&scene, &plan, |progress| {
-        if shown {
-            show(progress);
-        }
-    })?;
+    let progress = Progress::new();
+    let study = dpana::study(&scene, &plan, |part| progress.show(&words(part)))?;
+    drop(progress);
     let write = |name: &str, text: &str| replace_file(&arguments.out.join(name), text);
     write("study.json", &study.to_json())?;
     write("meshes.csv", &study.mesh_table().to_csv())?;
@@ -112,6 +111,7 @@ fn plan(arguments: &Study) -> Result<Plan, String> {
         plan.loop_unknowns = most;
     }
     plan.meshes.clone_from(&arguments.meshes);
+    plan.validate().map_err(|error| error.to_string())?;
     Ok(plan)
 }
 
@@ -148,17 +148,14 @@ fn frictions(text: &str) -> Result<Vec<f64>, String> {
     Ok((0..count).map(|k| rounded(at(k))).collect())
 }
 
-/// One line on the terminal, written over the one before.
-fn show(Progress { done, of, doing }: Progress<'_>) {
+/// A bar, how many parts are done, and the next one.
+fn words(part: study::Progress<'_>) -> String {
+    let (done, of) = (part.done, part.of);
     let filled = (20 * done).checked_div(of).unwrap_or(0);
     let bar: String = (0..20)
         .map(|k| if k < filled { '█' } else { '·' })
         .collect();
-    let mut terminal = io::stderr().lock();
-    let end = if done == of { "\n" } else { "" };
-    // A progress line that cannot be written is no reason to stop.
-    let _ = write!(terminal, "\r\x1b[K{bar} {done}/{of} {doing}{end}");
-    let _ = terminal.flush();
+    format!("{bar} {done}/{of} {}", part.doing)
 }
 
 /// What was typed, with the program's name in place of its path.

@@ -10,6 +10,7 @@ use dpana::Variation;
 use dpana::scene::Scene;
 
 use super::outputs::{check_output, write_table};
+use super::progress::Progress;
 
 #[derive(Args)]
 pub(crate) struct Sweep {
@@ -30,9 +31,14 @@ pub(crate) fn sweep(arguments: &Sweep) -> Result<ExitCode, Box<dyn Error>> {
     check_output("--out", &arguments.out, &arguments.scene)?;
     let variations = arguments.vary.iter().map(|text| variation(text));
     let variations: Vec<Variation> = variations.collect::<Result<_, _>>()?;
-    let table = dpana::sweep(&Scene::from_file(&arguments.scene)?, &variations)?;
+    let progress = Progress::new();
+    let scene = Scene::from_file(&arguments.scene)?;
+    let table = dpana::sweep_watched(&scene, &variations, |done, all| {
+        progress.show(&format!("{done} of {all} cases"));
+    })?;
+    drop(progress);
     write_table(&arguments.out, &table)?;
-    let certified = dpana::report::Cell::Word("certified");
+    let certified = dpana::report::Cell::Word("certified".into());
     let sound = table
         .rows
         .iter()

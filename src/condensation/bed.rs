@@ -121,13 +121,13 @@ impl Bed {
             grounding: Grounding::none(),
         };
         let mut work = CondensationWork::default();
-        let (body, trailing) = supported.condense(&interface.nodes, &mut work)?;
+        let (body, of_interface) = supported.condense(&interface.nodes, &mut work)?;
 
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
-        let (count, unknowns) = (tangents.len(), trailing.free_displacement.len());
+        let (count, unknowns) = (tangents.len(), body.action.free_displacement.len());
         let mut free = vec![0.0; unknowns];
-        interface.add_displacement(&trailing.free_displacement, &self.prescribed, &mut free);
-        let operator = Operator::from_factor(trailing.factor);
+        interface.add_displacement(&body.action, &mut free);
+        let operator = Operator::from_factor(of_interface);
         let problem = ContactProblem::new(
             &tangents,
             vec![0.5; count],

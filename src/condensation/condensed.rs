@@ -1,5 +1,6 @@
 //! Bodies condensed onto the contact problem between them, and the way back.
 
+use std::sync::Arc;
 use std::time::Instant;
 
 use faer::Mat;
@@ -8,7 +9,7 @@ use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::rigid_bodies::{floating, part_motions};
-use super::supported::{SupportedBody, Trailing};
+use super::supported::SupportedBody;
 use super::{ContactPair, ContactProblem, ContactSurface, Operator, PartMotion};
 use crate::body::{self, Body};
 use crate::error::{Error, check_length};
@@ -18,6 +19,8 @@ use crate::error::{Error, check_length};
 pub struct CondensationWork {
     /// Sparse factorisations, one per body.
     pub factorisations: usize,
+    /// Pairs of substitutions for loads and given displacements, one per body.
+    pub substitutions: usize,
     /// Unknowns of the supported bodies, contact unknowns included.
     pub unknowns: usize,
     /// Stored entries of the factors L.
@@ -34,14 +37,14 @@ pub struct CondensationWork {
     pub condensation_seconds: f64,
 }
 
-/// Bodies, their contact surface, and the factors that join them.
-#[derive(Debug)]
+/// Bodies, their contact surface, and the factors that join them; copies share the factors.
+#[derive(Clone, Debug)]
 pub struct Condensed {
-    pub(super) surface: ContactSurface,
+    pub(super) surface: Arc<ContactSurface>,
     pub(super) problem: ContactProblem,
     pub(super) bodies: Vec<CondensedBody>,
-    pub(super) interfaces: Vec<Interface>,
-    work: CondensationWork,
+    pub(super) interfaces: Arc<[Interface]>,
+    pub(super) work: CondensationWork,
 }
 
 impl Condensed {
@@ -84,17 +87,17 @@ impl Condensed {
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
         let start = Instant::now();
         let mut problem = join(&surface, pairs, &interfaces, &condensed, trailing)?;
-        let groundings: Vec<_> = condensed.iter().map(|body| &body.grounding).collect();
+        let groundings: Vec<_> = condensed.iter().map(CondensedBody::grounding).collect();
         let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
         if let Some(floating) = floating(&surface, &groundings, &loads, dimension)? {
             problem = problem.float(floating)?;
         }
         work.condensation_seconds += start.elapsed().as_secs_f64();
         Ok(Self {
-            surface,
+            surface: Arc::new(surface),
             problem,
             bodies: condensed,
-            interfaces,
+            interfaces: interfaces.into(),
             work,
         })
     }
@@ -120,7 +123,7 @@ impl Condensed {
     /// How the bodies' free parts move under an amplitude per free mode, in metre.
     #[must_use]
     pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
-        let groundings: Vec<_> = self.bodies.iter().map(|body| &body.grounding).collect();
+        let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
         part_motions(&groundings, motion)
     }
 
@@ -143,10 +146,10 @@ impl Condensed {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
         check_length("motion", self.problem.free_modes(), motion.len())?;
         let mut motions = motion;
-        let bodies = self.bodies.iter().zip(&self.interfaces);
+        let bodies = self.bodies.iter().zip(self.interfaces.iter());
         Ok(bodies
             .map(|(body, interface)| {
-                let (own, rest) = motions.split_at(body.grounding.modes.ncols());
+                let (own, rest) = motions.split_at(body.grounding().modes.ncols());
                 motions = rest;
                 body.recover(&interface.forces(reaction), own)
             })
@@ -160,18 +163,15 @@ fn join(
     pairs: &[ContactPair],
     interfaces: &[Interface],
     bodies: &[CondensedBody],
-    trailing: Vec<Trailing>,
+    trailing: Vec<Mat<f64>>,
 ) -> Result<ContactProblem, Error> {
     let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
     let mut free_displacement = vec![0.0; unknowns];
-    for ((interface, of_body), body) in interfaces.iter().zip(&trailing).zip(bodies) {
-        let free = &of_body.free_displacement;
-        interface.add_displacement(free, body.prescribed(), &mut free_displacement);
+    for (interface, body) in interfaces.iter().zip(bodies) {
+        interface.add_displacement(&body.action, &mut free_displacement);
     }
-    let mut operators = trailing
-        .into_iter()
-        .map(|of_body| Operator::from_factor(of_body.factor));
+    let mut operators = trailing.into_iter().map(Operator::from_factor);
     let operator = match (interfaces, operators.next()) {
         ([interface], Some(operator)) if interface.is_identity() => operator,
         (_, first) => {
@@ -179,7 +179,7 @@ fn join(
             for (interface, operator) in interfaces.iter().zip(first.into_iter().chain(operators)) {
                 interface.add_compliance(operator.compliance(), &mut compliance);
             }
-            Operator::from_compliance(compliance)?
+            Operator::from_bodies(compliance)?
         }
     };
     let friction = surface

@@ -17,11 +17,12 @@
 //! | the stiffness in the contact's axes (C4) | `frames` |
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
 //! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
-//! | free displacement (C5) | `supported` |
+//! | free displacement (C5), of driven loads and supports (C15) | `supported`, `action`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `floating`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6) | `condensed_body` |
 //! | the problem of a load step (C13) | `problem`, `step` |
 
+mod action;
 #[cfg(test)]
 mod bed;
 mod condensed;
@@ -46,6 +47,7 @@ pub mod problem;
 mod rigid_bodies;
 mod step;
 mod substitution;
+mod superposition;
 mod supported;
 pub mod surface;
 
@@ -57,4 +59,5 @@ pub use obstacle::{Closest, Obstacle};
 pub use operator::Operator;
 pub use problem::ContactProblem;
 pub use rigid_bodies::{PartMotion, RigidBodies};
+pub use superposition::{Driven, Superposition};
 pub use surface::{ContactNode, ContactPair, ContactSurface, Opposite, OppositeNodes};

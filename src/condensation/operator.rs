@@ -16,6 +16,9 @@ use crate::error::{Error, check_finite};
 /// Largest asymmetry `|G_ij − G_ji|` accepted, relative to the largest entry of G.
 const SYMMETRY: f64 = 1e-10;
 
+/// Most negative eigenvalue accepted, relative to the trace of G.
+const DEFINITE: f64 = 1e-10;
+
 /// A pivot below this part of its diagonal entry makes G numerically singular.
 const PIVOT: f64 = 1e-10;
 
@@ -38,9 +41,16 @@ impl Operator {
     ///
     /// # Errors
     ///
-    /// A matrix that is not square, not finite, not symmetric (with the size of the
-    /// violation), or that has a negative diagonal entry.
+    /// A matrix that is not square, not finite, not symmetric or not positive semi-definite, with
+    /// the size of the violation.
     pub fn from_compliance(compliance: Mat<f64>) -> Result<Self, Error> {
+        let operator = Self::from_bodies(compliance)?;
+        operator.check_definite()?;
+        Ok(operator)
+    }
+
+    /// Takes a sum of compliances of bodies, which is as definite as they are.
+    pub(crate) fn from_bodies(compliance: Mat<f64>) -> Result<Self, Error> {
         let size = compliance.nrows();
         if compliance.ncols() != size {
             let (expected, found) = (size, compliance.ncols());
@@ -82,6 +92,34 @@ impl Operator {
             compliance,
             factor: None,
             stiffness: OnceLock::new(),
+        })
+    }
+
+    /// Refuses a G of negative energy: a reaction `t` with `½ t · G t < 0`.
+    ///
+    /// A shift by what round-off may cost makes a semi-definite G definite, and only that.
+    fn check_definite(&self) -> Result<(), Error> {
+        let size = self.size();
+        let largest = self.compliance.norm_max();
+        if largest == 0.0 {
+            return Ok(());
+        }
+        // Order one, so that no product of two entries overflows or vanishes.
+        let mut shifted = Mat::from_fn(size, size, |i, j| self.compliance[(i, j)] / largest);
+        let shift = DEFINITE * (0..size).map(|i| shifted[(i, i)]).sum::<f64>();
+        for i in 0..size {
+            shifted[(i, i)] += shift;
+        }
+        if shifted.llt(Side::Lower).is_ok() {
+            return Ok(());
+        }
+        let lowest = match shifted.self_adjoint_eigenvalues(Side::Lower) {
+            Ok(eigenvalues) => eigenvalues.into_iter().fold(f64::INFINITY, f64::min),
+            Err(_) => f64::NAN,
+        };
+        Err(Error::Indefinite {
+            eigenvalue: largest * (lowest - shift),
+            largest,
         })
     }
 
@@ -227,6 +265,32 @@ mod tests {
         // 1/(2 + 2e-6) and 1/2e-6.
         assert!((stiffness[(0, 0)] - 0.499_999_5).abs() < 1e-12);
         assert!((stiffness[(1, 1)] - 5e5).abs() < 1e-4);
+    }
+
+    #[test]
+    fn an_indefinite_compliance_is_refused_with_its_negative_eigenvalue() {
+        // Eigenvalues 1 − 2 and 1 + 2, in any unit.
+        for unit in [1.0, 1e-300, 1e300] {
+            let found = Operator::from_compliance(mat![[1.0, 2.0], [2.0, 1.0]] * faer::Scale(unit));
+            let Err(Error::Indefinite {
+                eigenvalue,
+                largest,
+            }) = found
+            else {
+                unreachable!("{found:?}")
+            };
+            assert!((eigenvalue / unit + 1.0).abs() < 1e-14 && largest == 2.0 * unit);
+        }
+    }
+
+    #[test]
+    fn a_compliance_that_is_semi_definite_up_to_round_off_is_accepted() {
+        // Rank one; 1e-11 below it is within what entries of 1 may be off, 1e-8 is not.
+        let of = |below: f64| mat![[1.0, 1.0], [1.0, 1.0 - below]];
+        assert!(Operator::from_compliance(of(0.0)).is_ok());
+        assert!(Operator::from_compliance(of(1e-11)).is_ok());
+        assert!(Operator::from_compliance(of(1e-8)).is_err());
+        assert!(Operator::from_compliance(Mat::zeros(3, 3)).is_ok());
     }
 
     #[test]

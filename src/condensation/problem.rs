@@ -13,7 +13,7 @@
 use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Mat, get_global_parallelism};
+use faer::{Accum, ColMut, ColRef, Mat, Par};
 
 use super::{Floating, Operator};
 use crate::error::{Error, check_finite, check_length};
@@ -274,7 +274,7 @@ impl ContactProblem {
             self.compliance(),
             ColRef::from_slice(reaction),
             1.0,
-            get_global_parallelism(),
+            Par::Seq,
         );
         displacement
     }

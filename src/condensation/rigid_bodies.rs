@@ -93,7 +93,7 @@ pub(super) fn floating(
         return Ok(None);
     }
     let modes = contact_modes(surface, groundings, dimension);
-    Floating::new(modes, load).map(Some)
+    Floating::of_bodies(modes, load).map(Some)
 }
 
 fn contact_modes(

@@ -1,4 +1,4 @@
-//! The same bodies under another load: nothing is factorised again.
+//! The same bodies under other factors: nothing is factorised again.
 //!
 //! A rigid other side that moved by `d` adds to the reference of (C13):
 //!
@@ -7,57 +7,50 @@
 //! ```
 
 use super::rigid_bodies::mode_loads;
-use super::{Condensed, Floating};
-use crate::body::{self, Body};
-use crate::error::{Error, check_finite, check_length};
+use super::{Condensed, CondensedBody, Superposition};
+use crate::error::{Error, check_length};
 
 impl Condensed {
-    /// Moves on to other loads, other values of the same supports, and obstacles moved from
-    /// where they were before loading: one pair of substitutions per body (C5).
+    /// Moves on to other factors of loads and supports, and obstacles moved from where they were
+    /// before loading: nothing is substituted (C15).
     ///
-    /// - `bodies`: those that were condensed, under their loads and supports now;
+    /// - `under`, `factors`: what acts on these bodies, a factor per driven load or support;
     /// - `obstacles`: motion `d` of the obstacle per contact pair, in metre in global axes;
     /// - `slip`: of the last state, in metre per unknown of the contact problem
     ///   ([`slip`](Self::slip)); zero at the start. Entries along normals are not read.
     ///
     /// # Errors
     ///
-    /// Lengths that do not fit, contradictory supports, a support where there was none or none
-    /// where there was one, a NaN or infinity.
+    /// Lengths that do not fit, contradictory supports, a NaN or infinity.
     pub fn act(
         &mut self,
-        bodies: &[Body],
+        under: &Superposition,
+        factors: &[f64],
         obstacles: &[[f64; 3]],
         slip: &[f64],
     ) -> Result<(), Error> {
-        check_length("bodies", self.bodies.len(), bodies.len())?;
         check_length("slip", self.problem.unknowns(), slip.len())?;
         let pairs = self.surface.nodes.iter().map(|contact| contact.pair + 1);
         let pairs = pairs.max().unwrap_or(0);
         if obstacles.len() < pairs {
             check_length("obstacles", pairs, obstacles.len())?;
         }
-        let mut actions = Vec::with_capacity(bodies.len());
-        for (body, condensed) in bodies.iter().zip(&self.bodies) {
-            let (load, prescribed) = (body::load_vector(body), body::prescribed(body)?);
-            check_length("load", condensed.load().len(), load.len())?;
-            check_finite("load", &load)?;
-            check_supports(body, condensed.prescribed(), &prescribed)?;
-            actions.push((load, prescribed));
-        }
+        let actions = under.at(factors)?;
+        check_length("bodies", self.bodies.len(), actions.len())?;
         let mut free = vec![0.0; self.problem.unknowns()];
-        let of_bodies = self.bodies.iter_mut().zip(&self.interfaces);
-        for ((body, interface), (load, prescribed)) in of_bodies.zip(actions) {
-            let displacement = body.act(load, prescribed);
-            interface.add_displacement(&displacement, body.prescribed(), &mut free);
+        for (action, interface) in actions.iter().zip(self.interfaces.iter()) {
+            interface.add_displacement(action, &mut free);
         }
         let mut problem = self.problem.step(free, self.reference(obstacles, slip))?;
         if let Some(floating) = problem.floating() {
-            let groundings: Vec<_> = self.bodies.iter().map(|body| &body.grounding).collect();
-            let loads: Vec<_> = self.bodies.iter().map(|body| body.load()).collect();
+            let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
+            let loads: Vec<_> = actions.iter().map(|action| &action.load).collect();
             let load = mode_loads(&groundings, &loads);
-            let moved = Floating::new(floating.modes().to_owned(), load)?;
+            let moved = floating.under(load)?;
             problem = problem.float(moved)?;
+        }
+        for (body, action) in self.bodies.iter_mut().zip(actions) {
+            body.action = action;
         }
         self.problem = problem;
         Ok(())
@@ -104,35 +97,13 @@ impl Condensed {
     }
 }
 
-/// Values may change, what is held may not: it is in the factor.
-fn check_supports(body: &Body, was: &[Option<f64>], is: &[Option<f64>]) -> Result<(), Error> {
-    let axes = body.mesh.dimension;
-    let changed = was
-        .iter()
-        .zip(is)
-        .position(|(a, b)| a.is_some() != b.is_some());
-    match changed {
-        None => Ok(()),
-        Some(dof) => Err(Error::NotAccepted {
-            place: format!("{}: supports", body.name),
-            found: format!(
-                "node {} {} along {}",
-                dof / axes,
-                if is[dof].is_some() { "held" } else { "free" },
-                ['x', 'y', 'z'][dof % axes]
-            ),
-            accepted: "the supports that were condensed, with other values".to_owned(),
-        }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::samples::{distorted, facets};
-    use crate::body::{CellKind, Load, Support};
-    use crate::condensation::{ContactPair, ContactProblem, Obstacle, Opposite};
+    use crate::body::{Body, CellKind, Load, Support};
+    use crate::condensation::{ContactPair, ContactProblem, Driven, Obstacle, Opposite};
 
     /// A distorted block above a plane, held on its right, pressed from above.
     fn pressed(moved: f64, pressure: f64, plane: f64) -> (Body, ContactPair) {
@@ -162,20 +133,40 @@ mod tests {
         (body, pair)
     }
 
+    fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+        let pairs = a.iter().zip(b);
+        pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+    }
+
     #[test]
-    fn a_condensed_body_under_another_load_is_the_body_condensed_under_it() {
-        let (before, pair) = pressed(0.0, 0.3, -0.5);
-        let mut condensed = Condensed::new(&[before], std::slice::from_ref(&pair)).unwrap();
-        let (after, _) = pressed(0.01, 0.7, -0.5);
-        let fresh = Condensed::new(std::slice::from_ref(&after), &[pair]).unwrap();
+    fn a_condensed_body_under_factors_is_the_body_condensed_under_them() {
+        let (before, pair) = pressed(0.01, 0.3, -0.5);
+        let bodies = [before];
+        let mut condensed = Condensed::new(&bodies, std::slice::from_ref(&pair)).unwrap();
+        let held = bodies[0].supports.len() - 1;
+        let driven = [
+            Driven::Support {
+                body: 0,
+                index: held,
+            },
+            Driven::Load { body: 0, index: 0 },
+        ];
+        let under = condensed.superpose(&bodies, &driven).unwrap();
         let slip = vec![0.0; condensed.problem().unknowns()];
-        condensed.act(&[after], &[[0.0; 3]], &slip).unwrap();
+        condensed
+            .act(&under, &[-2.0, 3.0], &[[0.0; 3]], &slip)
+            .unwrap();
+        let (after, _) = pressed(-0.02, 0.9, -0.5);
+        let fresh = Condensed::new(&[after], &[pair]).unwrap();
         let (found, expected) = (condensed.problem(), fresh.problem());
-        assert_eq!(found.free_displacement(), expected.free_displacement());
+        let moved = expected.free_displacement();
+        assert!(largest_difference(found.free_displacement(), moved) < 1e-14);
         let none = vec![0.0; found.unknowns()];
-        let recovered = [&condensed, &fresh].map(|c| c.recover(&none, &[]).unwrap());
-        assert_eq!(recovered[0], recovered[1]);
-        assert_eq!(condensed.work().factorisations, 1);
+        let [found, expected] = [&condensed, &fresh].map(|c| c.recover(&none, &[]).unwrap());
+        assert!(largest_difference(&found[0], &expected[0]) < 1e-14);
+        let (found, expected) = (&condensed.bodies()[0], &fresh.bodies()[0]);
+        assert!(largest_difference(found.load(), expected.load()) < 1e-15);
+        assert_eq!(found.prescribed(), expected.prescribed());
     }
 
     #[test]
@@ -185,7 +176,8 @@ mod tests {
         let mut condensed = Condensed::new(&bodies, &[pair]).unwrap();
         let slip = vec![0.0; condensed.problem().unknowns()];
         let lift = [[0.0, 0.0, 0.125]];
-        condensed.act(&bodies, &lift, &slip).unwrap();
+        let under = condensed.superpose(&bodies, &[]).unwrap();
+        condensed.act(&under, &[], &lift, &slip).unwrap();
         let (_, near) = pressed(0.0, 0.3, -0.375);
         let near = Condensed::new(&bodies, &[near]).unwrap();
         let left = |problem: &ContactProblem| -> Vec<f64> {
@@ -202,12 +194,36 @@ mod tests {
     }
 
     #[test]
-    fn other_supports_are_refused_by_node_and_axis() {
-        let (mut body, pair) = pressed(0.0, 0.3, -0.5);
-        let mut condensed = Condensed::new(std::slice::from_ref(&body), &[pair]).unwrap();
+    fn supports_that_factors_set_against_each_other_are_refused() {
+        // Both hold the right side at 0.01 m; the first alone is doubled.
+        let (mut body, pair) = pressed(0.01, 0.3, -0.5);
+        let held = body.supports.len() - 1;
+        let mut again = body.supports[held].clone();
+        again.place = "supports[1]".to_owned();
+        body.supports.push(again);
+        let bodies = [body];
+        let mut condensed = Condensed::new(&bodies, &[pair]).unwrap();
+        let free = condensed.problem().free_displacement().to_vec();
+        let driven = [Driven::Support {
+            body: 0,
+            index: held,
+        }];
+        let under = condensed.superpose(&bodies, &driven).unwrap();
         let slip = vec![0.0; condensed.problem().unknowns()];
-        body.supports[0].displacement[2] = None;
-        let refused = condensed.act(&[body], &[[0.0; 3]], &slip).unwrap_err();
-        assert!(refused.to_string().contains("free along z"), "{refused}");
+        let mut act = |factor| condensed.act(&under, &[factor], &[[0.0; 3]], &slip);
+        let refused = act(2.0).unwrap_err().to_string();
+        assert!(refused.contains("supports[1]"), "{refused}");
+        assert!(
+            act(f64::NAN)
+                .unwrap_err()
+                .to_string()
+                .contains("factors[0]")
+        );
+        act(1.0).unwrap();
+        assert!(largest_difference(condensed.problem().free_displacement(), &free) < 1e-15);
+        let absent = Driven::Load { body: 0, index: 1 };
+        assert!(condensed.superpose(&bodies, &[absent]).is_err());
+        // The body at first, without its driven support, and that support alone.
+        assert_eq!(condensed.work().substitutions, 3);
     }
 }

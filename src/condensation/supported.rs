@@ -6,21 +6,13 @@ use faer::Mat;
 use sprs::CsMat;
 
 use super::CondensationWork;
-use super::condensed_body::CondensedBody;
+use super::condensed_body::{CondensedBody, FactoredBody};
 use super::factor::{Breakdown, Factor};
 use super::frames::Frames;
 use super::grounding::Grounding;
 use super::interface::InterfaceNode;
 use super::ordering::{Ordering, Role};
 use crate::error::Error;
-
-/// What a condensed body shows at its interface.
-pub(super) struct Trailing {
-    /// `L_cc` of (C2).
-    pub(super) factor: Mat<f64>,
-    /// `v̂` of (C5), in metre.
-    pub(super) free_displacement: Vec<f64>,
-}
 
 /// The assembled body, before it is condensed.
 pub(super) struct SupportedBody<'a> {
@@ -34,12 +26,12 @@ pub(super) struct SupportedBody<'a> {
 }
 
 impl SupportedBody<'_> {
-    /// Orders, factorises and condenses onto the interface (C2), (C5).
+    /// Orders, factorises and condenses onto the interface; `L_cc` of (C2) comes with the body.
     pub(super) fn condense(
         self,
         interface: &[InterfaceNode],
         work: &mut CondensationWork,
-    ) -> Result<(CondensedBody, Trailing), Error> {
+    ) -> Result<(CondensedBody, Mat<f64>), Error> {
         let start = Instant::now();
         let frames = Frames::new(self.dimension, self.nodes.len(), interface);
         let (roles, contact) = self.roles(interface);
@@ -58,22 +50,17 @@ impl SupportedBody<'_> {
 
         let start = Instant::now();
         let of_interface = factor.trailing_block();
-        let mut body = CondensedBody {
+        let factored = FactoredBody {
             stiffness: self.stiffness,
-            load: Vec::new(),
-            prescribed: Vec::new(),
             frames,
             ordering,
             factor,
-            half_solved: Vec::new(),
             grounding: self.grounding,
         };
-        let trailing = Trailing {
-            factor: of_interface,
-            free_displacement: body.act(self.load, self.prescribed),
-        };
+        let body = CondensedBody::new(factored, self.load, self.prescribed);
+        work.substitutions += 1;
         work.condensation_seconds += start.elapsed().as_secs_f64();
-        Ok((body, trailing))
+        Ok((body, of_interface))
     }
 
     /// The role of each degree of freedom in the frames, and the interface unknowns in order.

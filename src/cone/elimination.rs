@@ -11,7 +11,7 @@ use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
 };
-use faer::{Accum, Col, Mat, MatRef, Side, get_global_parallelism};
+use faer::{Accum, Col, Mat, MatRef, Par, Side, get_global_parallelism};
 
 /// The split of a quadratic form into free variables F and variables in cones C.
 pub(crate) struct Elimination {
@@ -53,9 +53,8 @@ impl Elimination {
 
     /// `(y, q_C − Wᵀ y)` for the linear terms of the free and the cone variables.
     pub(crate) fn reduce(&self, free: &[f64], cone: &[f64]) -> (Col<f64>, Vec<f64>) {
-        let par = get_global_parallelism();
         let mut y = Col::from_fn(free.len(), |i| free[i]);
-        solve_lower_triangular_in_place(self.lower.as_ref(), y.as_mat_mut(), par);
+        solve_lower_triangular_in_place(self.lower.as_ref(), y.as_mat_mut(), Par::Seq);
         let mut linear = Col::from_fn(cone.len(), |i| cone[i]);
         matmul(
             linear.as_mut(),
@@ -63,14 +62,13 @@ impl Elimination {
             self.coupling.transpose(),
             y.as_ref(),
             -1.0,
-            par,
+            Par::Seq,
         );
         (y, linear.iter().copied().collect())
     }
 
     /// The free variables that belong to cone variables `x`.
     pub(crate) fn recover(&self, y: &Col<f64>, x: &[f64]) -> Vec<f64> {
-        let par = get_global_parallelism();
         let x = Col::from_fn(x.len(), |i| x[i]);
         let mut free = -y;
         matmul(
@@ -79,9 +77,9 @@ impl Elimination {
             &self.coupling,
             x.as_ref(),
             -1.0,
-            par,
+            Par::Seq,
         );
-        solve_upper_triangular_in_place(self.lower.transpose(), free.as_mat_mut(), par);
+        solve_upper_triangular_in_place(self.lower.transpose(), free.as_mat_mut(), Par::Seq);
         free.iter().copied().collect()
     }
 }

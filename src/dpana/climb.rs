@@ -1,7 +1,7 @@
 //! Where the sweeps do not settle: friction raised from nothing, or lowered from rough, to what it is.
 //!
 //! ```text
-//! (D6)  t(λ): the state for λ μ,  λ: 0 → 1, or 1000 → 1,  each by Newton steps (D4) from the one before
+//! (D9)  t(λ): the state for λ μ,  λ: 0 → 1, or 1000 → 1,  each by Newton steps (D4) from the one before
 //! ```
 //!
 //! From state to state few contacts change what they do, and Newton steps follow where from afar
@@ -41,7 +41,7 @@ const STEPS_IN_ALL: usize = 200;
 const CLOSE: f64 = 1e-8;
 
 impl Run<'_> {
-    /// (D6), once; then Newton steps to the last digits.
+    /// (D9), once; then Newton steps to the last digits.
     pub(super) fn climb_in_friction(&mut self) {
         let given_up = self.shortfall == Some(Shortfall::ConeSolver);
         if self.is_solved() || (self.work.sweeps != SWEEPS && !given_up) {
@@ -155,7 +155,7 @@ fn state_at(
         if state.residual() <= CLOSE {
             return Some((Some(state.reaction), steps));
         }
-        let Some(step) = finish.step(&state) else {
+        let Some(step) = finish.step(&state, &state.verdict.displacement) else {
             return Some((None, steps));
         };
         state = state.moved(&step, 1.0, &judge);

@@ -20,7 +20,7 @@ use std::ops::Range;
 
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
-use faer::{Accum, Col, ColMut, ColRef, Mat, get_global_parallelism};
+use faer::{Accum, Col, ColMut, ColRef, Mat, Par};
 use nalgebra::Matrix3;
 
 use super::iterate::Iterate;
@@ -65,11 +65,12 @@ impl<'a> Finish<'a> {
         })
     }
 
-    /// One step from a state; `None` if the matrix of (D4) is singular.
-    pub(super) fn step(&self, state: &Iterate) -> Option<Step> {
+    /// One step from an iterate; `None` if the matrix of (D4) is singular. What each contact does is
+    /// read off the iterate's reaction and `seen`, a displacement: its own, or that of a neighbour.
+    pub(super) fn step(&self, state: &Iterate, seen: &[f64]) -> Option<Step> {
         let (reaction, displacement) = (&state.reaction, &state.verdict.displacement);
         let laws: Vec<Law> = (0..self.problem.contacts())
-            .map(|contact| self.law(contact, self.state(contact, reaction, displacement)))
+            .map(|contact| self.law(contact, self.state(contact, reaction, seen)))
             .collect();
         let mut change = self.closing(&laws, displacement);
         let balanced = self.stiffness.balanced(reaction);
@@ -212,7 +213,7 @@ impl<'a> Finish<'a> {
             self.stiffness.matrix.as_ref(),
             ColRef::from_slice(change),
             1.0,
-            get_global_parallelism(),
+            Par::Seq,
         );
         next
     }

@@ -119,7 +119,7 @@ pub struct Work {
     pub friction_program_contacts: usize,
     /// Newton steps.
     pub newton_steps: usize,
-    /// Coefficients of friction that were passed through on the way up to the problem's own (D6).
+    /// Coefficients of friction that were passed through on the way up to the problem's own (D9).
     pub friction_parts: usize,
     /// Seconds of prediction, half-steps, finish, judge.
     pub seconds: Seconds,

@@ -12,7 +12,8 @@
 //! half-steps, with their equilibrium as rows (H8).
 //!
 //! A load step starts from the last state instead: its reaction tells which contacts are open,
-//! pressed, stuck, and a finish is tried before any sweep.
+//! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
+//! step on what each contact does there.
 //!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
@@ -21,6 +22,7 @@ mod anderson;
 mod climb;
 mod condition;
 mod contraction;
+mod exact;
 mod finish;
 mod float;
 mod gauss_seidel;
@@ -66,13 +68,50 @@ pub fn solve_from(
     reaction: &[f64],
     motion: &[f64],
 ) -> Result<Outcome, Error> {
+    run_from(problem, settings, reaction, motion, None)
+}
+
+/// Solves a condensed contact problem from a solved neighbour: the same contacts under a little
+/// more or less load, friction or gap.
+///
+/// The first Newton step takes each contact's state from the neighbour, so that where no contact
+/// changes it no cone program is posed. Of several solutions (high friction) it finds one near
+/// that neighbour.
+///
+/// # Errors
+///
+/// Those of [`solve`], and a neighbour that is not of the problem's length or not finite.
+pub fn solve_near(
+    problem: &ContactProblem,
+    settings: &Settings,
+    near: &Outcome,
+) -> Result<Outcome, Error> {
+    let displacement = &near.verdict.displacement;
+    check_length("displacement", problem.unknowns(), displacement.len())?;
+    check_finite("displacement", displacement)?;
+    run_from(
+        problem,
+        settings,
+        &near.reaction,
+        &near.motion,
+        Some(displacement),
+    )
+}
+
+fn run_from(
+    problem: &ContactProblem,
+    settings: &Settings,
+    reaction: &[f64],
+    motion: &[f64],
+    displacement: Option<&[f64]>,
+) -> Result<Outcome, Error> {
     check(problem, settings)?;
     check_length("reaction", problem.unknowns(), reaction.len())?;
     check_length("motion", problem.free_modes(), motion.len())?;
     check_finite("reaction", reaction)?;
     check_finite("motion", motion)?;
     let mut near = Run::new(problem, settings);
-    near.begin_from(reaction, motion);
+    near.begin_from(reaction, motion, displacement);
     Ok(run(near))
 }
 

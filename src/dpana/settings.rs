@@ -17,7 +17,7 @@ pub enum Variant {
 }
 
 impl Variant {
-    /// Unaccelerated sweeps at tight tolerance: the alternation itself.
+    /// Unaccelerated exact sweeps: the alternation itself.
     pub const PLAIN: Self = Self::Sweeps(Sweeps {
         mixing: Mixing::None,
         exact: true,
@@ -30,7 +30,7 @@ impl Variant {
 pub struct Sweeps {
     /// What follows the normal half-step.
     pub mixing: Mixing,
-    /// Half-steps as exact as the cone solver can be; else tied to the outer residual.
+    /// Half-steps to the last digit (D6); else tied to the outer residual.
     pub exact: bool,
     /// A Newton finish after every sweep.
     pub finish: bool,

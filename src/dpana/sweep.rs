@@ -4,13 +4,12 @@ use std::time::Instant;
 
 use super::anderson::Anderson;
 use super::condition::condition;
+use super::exact;
 use super::finish::{Finish, Step};
 use super::gauss_seidel::GaussSeidel;
 use super::iterate::Iterate;
 use super::prediction::Roles;
-use super::{
-    Failure, Mixing, Outcome, Settings, Shortfall, Status, SweepRecord, Sweeps, Variant, Work,
-};
+use super::{Failure, Mixing, Outcome, Settings, Shortfall, Status, SweepRecord, Variant, Work};
 use crate::condensation::ContactProblem;
 use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
@@ -102,15 +101,21 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Starts from a state that is likely near, with a finish where sweeps need not be run.
-    pub(super) fn begin_from(&mut self, reaction: &[f64], motion: &[f64]) {
+    /// Starts from a state that is likely near, with a finish where sweeps need not be run; its
+    /// first step takes each contact's state from `displacement`, if that is known.
+    pub(super) fn begin_from(
+        &mut self,
+        reaction: &[f64],
+        motion: &[f64],
+        displacement: Option<&[f64]>,
+    ) {
         self.state.reaction = reaction.to_vec();
         self.state.motion = motion.to_vec();
         self.judge();
         // Rest may be a state too, but it is not the one that is asked for.
         self.best = self.state.clone();
         if self.settings.variant == Variant::Default {
-            self.newton_finish();
+            self.newton_steps(displacement);
         }
     }
 
@@ -163,6 +168,9 @@ impl<'a> Run<'a> {
             .normal
             .solve(&mut self.state.reaction, roles, tolerance);
         let work = self.count(work);
+        if self.is_exact() {
+            exact::normal(self.problem, &mut self.state.reaction);
+        }
         self.record.normal_iterations = work.iterations;
         self.work.normal_programs += work.programs;
         self.work.seconds.normal += start.elapsed().as_secs_f64();
@@ -199,6 +207,9 @@ impl<'a> Run<'a> {
             .friction
             .solve(&mut self.state.reaction, roles, tolerance);
         let work = self.count(work);
+        if self.is_exact() {
+            exact::friction(self.problem, &mut self.state.reaction);
+        }
         self.record.friction_iterations = work.iterations;
         self.work.friction_programs += work.programs;
         self.work.friction_program_contacts = self.work.friction_program_contacts.max(work.cones);
@@ -222,6 +233,10 @@ impl<'a> Run<'a> {
 
     /// Newton steps from the iterate, which moves only to a state of smaller residual.
     pub(super) fn newton_finish(&mut self) {
+        self.newton_steps(None);
+    }
+
+    fn newton_steps(&mut self, mut near: Option<&[f64]>) {
         let start = Instant::now();
         let Some(finish) = self.finish.take().or_else(|| Finish::new(self.problem)) else {
             return;
@@ -232,7 +247,8 @@ impl<'a> Run<'a> {
             if self.is_solved() || idle == NEWTON_STEPS.1 {
                 break;
             }
-            let Some(step) = finish.step(&trial) else {
+            let states = near.take().unwrap_or(&trial.verdict.displacement);
+            let Some(step) = finish.step(&trial, states) else {
                 break;
             };
             self.record.newton_steps += 1;
@@ -336,13 +352,20 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tied to the outer residual; exact study sweeps are as exact as Clarabel can be.
+    /// Tied to the outer residual. A cone program leaves the natural map at about the root of its
+    /// tolerance: without prediction and finish only the square keeps sweeps going.
     pub(super) fn cone_tolerance(&self) -> f64 {
         let (tightest, loosest) = CONE_TOLERANCE;
+        let wanted = INEXACT * self.state.residual();
         match self.settings.variant {
-            Variant::Sweeps(Sweeps { exact: true, .. }) => tightest,
-            _ => (INEXACT * self.state.residual()).clamp(tightest, loosest),
+            Variant::Sweeps(sweeps) if sweeps.exact => tightest,
+            Variant::Sweeps(_) => wanted.powi(2).clamp(tightest, loosest),
+            _ => wanted.clamp(tightest, loosest),
         }
+    }
+
+    fn is_exact(&self) -> bool {
+        matches!(self.settings.variant, Variant::Sweeps(sweeps) if sweeps.exact)
     }
 
     fn normal_reaction(&self) -> Vec<f64> {

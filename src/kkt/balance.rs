@@ -59,8 +59,10 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     let (nodes, dimension) = (&state.body.mesh.nodes, state.dimension());
     let parts = [state.load, &contact, &held];
     let [loads, contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
-    let sizes = || parts.iter().flat_map(|part| nodal_lengths(part, dimension));
-    let (force, total) = (sizes().fold(0.0, f64::max), sizes().sum::<f64>());
+    let sizes = parts.iter().flat_map(|part| nodal_lengths(part, dimension));
+    let (force, total) = sizes.fold((0.0_f64, 0.0), |(most, sum), size| {
+        (most.max(size), sum + size)
+    });
     let motion = nodal_lengths(state.displacement, dimension).fold(0.0, f64::max);
     let reach = nodes.iter().map(|&x| length(x)).fold(0.0, f64::max);
     let (forces, moments) = (

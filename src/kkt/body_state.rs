@@ -94,10 +94,22 @@ impl BodyState<'_> {
 
     /// s = K u − f − c of (K4), per unknown of the body, in newton.
     pub(super) fn support_reactions(&self, contact: &[f64]) -> Vec<f64> {
+        self.reactions(contact, |_| true)
+    }
+
+    /// The same where a support holds, and zero where equilibrium makes it so.
+    pub(super) fn held_reactions(&self, contact: &[f64]) -> Vec<f64> {
+        self.reactions(contact, |unknown| self.prescribed[unknown].is_some())
+    }
+
+    fn reactions(&self, contact: &[f64], of: impl Fn(usize) -> bool) -> Vec<f64> {
         let u = self.displacement;
-        let rows = self.stiffness.outer_iterator();
+        let rows = self.stiffness.outer_iterator().enumerate();
         rows.zip(self.load.iter().zip(contact))
-            .map(|(row, (f, c))| row.iter().map(|(k, entry)| entry * u[k]).sum::<f64>() - f - c)
+            .map(|((unknown, row), (f, c))| match of(unknown) {
+                true => row.iter().map(|(k, entry)| entry * u[k]).sum::<f64>() - f - c,
+                false => 0.0,
+            })
             .collect()
     }
 

@@ -8,9 +8,16 @@ use faer::MatRef;
 
 use super::natural_map::largest;
 use super::resultant::Defect;
+
 /// Largest departure from (K8) over the free modes, in newton; scaled by the largest sum of
-/// all forces on a mode, each counted positive.
-pub(super) fn unanswered(modes: MatRef<'_, f64>, load: &[f64], reaction: &[f64]) -> Defect {
+/// all forces on a mode, each counted positive. Modes are compared at amplitudes that move
+/// the bodies by one metre: `sizes` says how far one of the given amplitudes does.
+pub(super) fn unanswered(
+    modes: MatRef<'_, f64>,
+    load: &[f64],
+    sizes: &[f64],
+    reaction: &[f64],
+) -> Defect {
     let (mut left, mut total) = (Vec::new(), Vec::new());
     for (k, e) in load.iter().enumerate() {
         let (mut sum, mut size) = (*e, e.abs());
@@ -18,8 +25,8 @@ pub(super) fn unanswered(modes: MatRef<'_, f64>, load: &[f64], reaction: &[f64])
             sum += r * t;
             size += (r * t).abs();
         }
-        left.push(sum);
-        total.push(size);
+        left.push(sum / sizes[k]);
+        total.push(size / sizes[k]);
     }
     Defect::over(largest(&left), largest(&total))
 }
@@ -33,14 +40,22 @@ mod tests {
     fn what_reactions_leave_of_a_load_is_measured_against_all_forces() {
         // A lid on two contacts, sinking and tilting: −4 − 2 + 6 = 0, −4 + 2 + 3 = 1 of 4 + 2 + 6.
         let modes = mat![[1.0, 1.0], [1.0, -1.0]];
-        let found = unanswered(modes.as_ref(), &[6.0, 3.0], &[-4.0, -2.0]);
+        let found = unanswered(modes.as_ref(), &[6.0, 3.0], &[1.0; 2], &[-4.0, -2.0]);
         assert_eq!((found.value, found.scaled), (1.0, 1.0 / 12.0));
     }
 
     #[test]
     fn nothing_to_answer_is_answered() {
         let modes = mat![[1.0], [1.0]];
-        let found = unanswered(modes.as_ref(), &[0.0], &[0.0, 0.0]);
+        let found = unanswered(modes.as_ref(), &[0.0], &[1.0], &[0.0, 0.0]);
         assert_eq!((found.value, found.scaled), (0.0, 0.0));
+    }
+
+    #[test]
+    fn a_mode_stated_at_a_large_amplitude_does_not_drown_the_others() {
+        // The same lid, sinking stated in 1e81 m.
+        let modes = mat![[1e81, 1.0], [1e81, -1.0]];
+        let found = unanswered(modes.as_ref(), &[6e81, 3.0], &[1e81, 1.0], &[-4.0, -2.0]);
+        assert_eq!(found.scaled, 1.0 / 12.0);
     }
 }

@@ -48,7 +48,7 @@ pub fn held(
         largest = largest.max(t[0].abs().hypot(tangential));
     }
     Ok(Held {
-        equilibrium: unanswered(modes, load, reaction),
+        equilibrium: unanswered(modes, load, &vec![1.0; load.len()], reaction),
         excess: Defect {
             value: excess,
             scaled: ratio(excess, largest),

@@ -133,7 +133,8 @@ impl<'a> Judge<'a> {
                 .problem
                 .floating()
                 .map_or_else(Defect::default, |floating| {
-                    unanswered(floating.modes(), floating.load(), reaction)
+                    let (modes, load) = (floating.modes(), floating.load());
+                    unanswered(modes, load, floating.sizes(), reaction)
                 }),
             penetration: signorini.penetration.over(length),
             tension: signorini.tension.over(force),

@@ -77,15 +77,12 @@ impl Account {
         for state in states {
             state.check()?;
             let contact = state.contact_forces();
-            let mut support = state.support_reactions(&contact);
-            let mut energy = 0.0;
-            for (k, u) in state.displacement.iter().enumerate() {
-                energy += 0.5 * u * (support[k] + state.load[k] + contact[k]);
-                if state.prescribed[k].is_none() {
-                    support[k] = 0.0;
-                }
-            }
-            account.elastic += energy;
+            let support = state.held_reactions(&contact);
+            // K u is what acts (K4).
+            let acting = support.iter().zip(state.load).zip(&contact);
+            let acting = acting.map(|((s, f), c)| s + f + c);
+            let work = state.displacement.iter().zip(acting);
+            account.elastic += work.map(|(u, force)| 0.5 * u * force).sum::<f64>();
             account.bodies.push(BodyAccount {
                 displacement: state.displacement.to_vec(),
                 load: state.load.to_vec(),
@@ -93,6 +90,12 @@ impl Account {
             });
         }
         Ok(account)
+    }
+
+    /// Elastic energy `½ u · K u` of all bodies, in joule.
+    #[must_use]
+    pub fn elastic(&self) -> f64 {
+        self.elastic
     }
 
     /// The same bodies without load and displacement.

@@ -12,7 +12,7 @@
 //! far from the obstacle do not make the load any larger.
 
 use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, get_global_parallelism};
+use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::natural_map::{Step, largest, largest_block, norm};
 use crate::condensation::ContactProblem;
@@ -52,7 +52,7 @@ impl Scales {
     }
 }
 
-/// `G t`, in metre: one pass over G.
+/// `G t`, in metre: one pass over G, on one thread, as several would add up in their own order.
 pub(super) fn compliance_product(compliance: &Mat<f64>, reaction: &[f64]) -> Vec<f64> {
     let mut product = vec![0.0; reaction.len()];
     matmul(
@@ -61,7 +61,7 @@ pub(super) fn compliance_product(compliance: &Mat<f64>, reaction: &[f64]) -> Vec
         compliance,
         MatRef::from_column_major_slice(reaction, reaction.len(), 1),
         1.0,
-        get_global_parallelism(),
+        Par::Seq,
     );
     product
 }

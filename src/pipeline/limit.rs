@@ -22,13 +22,21 @@ const BEYOND: (f64, f64) = (1e-6, 1e3);
 ///
 /// # Errors
 ///
-/// Whatever is wrong with the scene, and a scene whose supports hold every body.
+/// Whatever is wrong with the scene, a scene with load steps, and one whose supports hold every body.
 pub fn limit(scene: &Scene) -> Result<Limits, Error> {
     let Mechanics {
         bodies,
         contacts: pairs,
+        history,
         ..
     } = scene.mechanics()?;
+    if !history.instants().is_empty() {
+        return Err(scene.locate(Error::NotAccepted {
+            place: "steps".to_owned(),
+            found: "a load history".to_owned(),
+            accepted: "a scene without steps, whose loads act as they stand".to_owned(),
+        }));
+    }
     limits(&scene.title, &bodies, &pairs).map_err(|error| scene.locate(error))
 }
 

@@ -1,18 +1,20 @@
 //! Load histories: one state after the other on one factorisation.
 
+use super::halving::Halving;
+use super::substep::{Course, State};
 use super::{Setup, Solution};
-use crate::condensation::Condensed;
-use crate::dpana::{self, Outcome, Status};
+use crate::dpana::{self, Status};
 use crate::error::{Error, check_length};
-use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
+use crate::kkt::Ledger;
 use crate::report;
-use crate::scene::{Exact, LoadHistory, SavedState, Scene, exact, plain};
+use crate::scene::{Exact, Fingerprint, LoadHistory, SavedState, Scene, exact, plain};
 
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
 /// first state that is not certified, and returns that state.
 ///
 /// `from` takes a history on after the step that it was saved at: bit for bit as if it had never
-/// been left, on as many threads.
+/// been left, on as many threads. What comes after that step may have changed in the scene, not
+/// what led to it.
 ///
 /// # Errors
 ///
@@ -24,8 +26,9 @@ pub fn solve_steps(
 ) -> Result<Solution, Error> {
     let at_scene = |error| scene.locate(error);
     let mut mechanics = scene.mechanics()?;
+    let bodies = Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts));
     let history = std::mem::take(&mut mechanics.history);
-    let mut setup = Setup::new(scene, mechanics).map_err(at_scene)?;
+    let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let Some(&last) = history.instants().last() else {
         if from.is_some() {
             return Err(at_scene(not_of_this_scene("a state", "a scene with steps")));
@@ -36,19 +39,26 @@ pub fn solve_steps(
         each(&solution)?;
         return Ok(solution);
     };
-    let mut past = match from {
-        None => Past::new(&setup),
-        Some(saved) => Past::restored(&mut setup, &history, saved).map_err(at_scene)?,
+    let mut past = Past {
+        bodies,
+        state: State::at_rest(&setup),
+        done: None,
+        total: Ledger::default(),
     };
+    let mut course = Course::new(setup, &history).map_err(at_scene)?;
+    if let Some(saved) = from {
+        past = past.restored(&mut course, saved).map_err(at_scene)?;
+    }
     loop {
-        let solution = past.next(setup, &history).map_err(at_scene)?;
+        let solution = past.next(&mut course).map_err(at_scene)?;
         each(&solution)?;
-        let step = solution.step.as_ref();
-        let at_end = step.is_none_or(|step| step.at >= last);
-        if at_end || solution.status() != Status::Certified {
+        let Some(step) = &solution.step else {
+            return Ok(solution);
+        };
+        if step.at >= last || solution.status() != Status::Certified {
             return Ok(solution);
         }
-        (past, setup) = solution.leave();
+        past = step.past();
     }
 }
 
@@ -60,20 +70,14 @@ fn not_of_this_scene(found: impl Into<String>, accepted: impl Into<String>) -> E
     }
 }
 
-/// What a state leaves to the next.
-#[derive(Debug)]
+/// What a step leaves to the next.
+#[derive(Clone, Debug)]
 struct Past {
-    steps: usize,
-    reaction: Vec<f64>,
-    motion: Vec<f64>,
-    /// Per contact unknown since the start of the history, in metre.
-    slip: Vec<f64>,
-    /// Relative displacement per contact in global axes, to obstacles where they are, in metre.
-    relative: Vec<[f64; 3]>,
-    /// Motion of the obstacle per contact pair, in metre.
-    obstacles: Vec<[f64; 3]>,
-    /// None before the first step.
-    account: Option<Account>,
+    /// Of bodies and contacts.
+    bodies: Fingerprint,
+    state: State,
+    /// Steps done and the instant of the last; none before the first.
+    done: Option<(usize, f64)>,
     total: Ledger,
 }
 
@@ -84,55 +88,49 @@ pub struct SolvedStep {
     at: f64,
     driven: Vec<(String, f64)>,
     origins: Vec<[f64; 3]>,
-    slip: Vec<f64>,
-    obstacles: Vec<[f64; 3]>,
-    account: Account,
     ledger: Ledger,
     total: Ledger,
+    halving: Option<Halving>,
+    bodies: Fingerprint,
+    history: Fingerprint,
+    state: State,
 }
 
 impl Past {
-    /// Before the first step.
-    fn new(setup: &Setup) -> Self {
-        let problem = setup.condensed.problem();
-        Self {
-            steps: 0,
-            reaction: vec![0.0; problem.unknowns()],
-            motion: vec![0.0; problem.free_modes()],
-            slip: vec![0.0; problem.unknowns()],
-            relative: vec![[0.0; 3]; problem.contacts()],
-            obstacles: vec![[0.0; 3]; setup.pairs.len()],
-            account: None,
-            total: Ledger::default(),
-        }
-    }
-
     /// Where a saved state was.
-    fn restored(
-        setup: &mut Setup,
-        history: &LoadHistory,
-        saved: &SavedState,
-    ) -> Result<Self, Error> {
+    fn restored(self, course: &mut Course<'_>, saved: &SavedState) -> Result<Self, Error> {
+        let instants = course.history.instants();
         let done = saved.steps.checked_sub(1);
-        let at = done.and_then(|done| history.instants().get(done));
-        if at != Some(&saved.at.0) || saved.steps == history.instants().len() {
+        let at = done.and_then(|done| instants.get(done));
+        if at != Some(&saved.at.0) || saved.steps == instants.len() {
             return Err(not_of_this_scene(
                 format!("step {} at {}", saved.steps, saved.at.0),
                 "an instant of the scene before its last, at the same place",
             ));
         }
-        let problem = setup.condensed.problem();
+        if saved.bodies != self.bodies {
+            return Err(not_of_this_scene(
+                "a state of other bodies or contacts",
+                "meshes, materials, supports, loads, obstacles and friction as they were",
+            ));
+        }
+        if saved.history != led_to(course.history, saved.steps) {
+            return Err(not_of_this_scene(
+                format!("other instants, factors or motions up to {}", saved.at.0),
+                "the steps that led to it; those after it may change",
+            ));
+        }
+        let problem = course.setup.condensed.problem();
         check_length("state.reaction", problem.unknowns(), saved.reaction.len())?;
         check_length("state.slip", problem.unknowns(), saved.slip.len())?;
         check_length("state.motion", problem.free_modes(), saved.motion.len())?;
+        let bodies = &course.setup.bodies;
         check_length(
             "state.displacements",
-            setup.bodies.len(),
+            bodies.len(),
             saved.displacements.len(),
         )?;
-        for (index, (body, displacement)) in
-            setup.bodies.iter().zip(&saved.displacements).enumerate()
-        {
+        for (index, (body, displacement)) in bodies.iter().zip(&saved.displacements).enumerate() {
             let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
             let place = format!("state.displacements[{index}]");
             check_length(&place, unknowns, displacement.len())?;
@@ -142,100 +140,71 @@ impl Past {
             expected: 6,
             found: found.len(),
         })?;
-        let (reaction, slip) = (plain(&saved.reaction), plain(&saved.slip));
         let displacements: Vec<_> = saved.displacements.iter().map(|u| plain(u)).collect();
-        let moved = history.obstacles(saved.at.0);
-        history.apply(saved.at.0, &mut setup.bodies);
-        setup.condensed.act(&setup.bodies, &moved, &slip)?;
-        Ok(Self {
-            steps: saved.steps,
-            motion: plain(&saved.motion),
-            relative: relative(setup, &displacements, &moved),
-            obstacles: moved,
-            account: Some(Account::new(&setup.body_states(&reaction, &displacements))?),
-            total: Ledger::from(total),
+        let (reaction, motion) = (plain(&saved.reaction), plain(&saved.motion));
+        let state = course.state(
+            saved.at.0,
             reaction,
-            slip,
+            motion,
+            plain(&saved.slip),
+            &displacements,
+        )?;
+        Ok(Self {
+            state,
+            done: Some((saved.steps, saved.at.0)),
+            total: Ledger::from(total),
+            ..self
         })
     }
 
     /// Solves the next step.
-    fn next(self, mut setup: Setup, history: &LoadHistory) -> Result<Solution, Error> {
-        let at = history.instants()[self.steps];
-        let obstacles = history.obstacles(at);
-        history.apply(at, &mut setup.bodies);
-        setup.condensed.act(&setup.bodies, &obstacles, &self.slip)?;
-        let outcome = self.solve(&setup)?;
-        let slip = setup
-            .condensed
-            .slip(&outcome.verdict.displacement, &self.slip);
-        let moved = moved(&setup.condensed, &self.obstacles, &obstacles);
-        let mut solution = setup.recover(outcome)?;
-        let (setup, outcome) = (&solution.setup, &solution.outcome);
-        let account = Account::new(&setup.body_states(&outcome.reaction, &solution.displacements))?;
-        let ledger = Ledger::new(
-            self.account.as_ref().unwrap_or(&account.at_rest()),
-            &account,
-            &ContactStep {
-                problem: setup.condensed.problem(),
-                reaction: [&self.reaction, &outcome.reaction],
-                displacement: &outcome.verdict.displacement,
-                moved: &moved,
-            },
-        )?;
-        solution.step = Some(SolvedStep {
-            number: self.steps + 1,
-            at,
-            driven: history.driven(at),
-            origins: origins(&setup.condensed, &self.relative, &obstacles),
-            slip,
-            obstacles,
-            account,
-            ledger,
-            total: self.total.plus(&ledger),
-        });
+    fn next(self, course: &mut Course<'_>) -> Result<Solution, Error> {
+        let (steps, from) = match self.done {
+            None => (0, None),
+            Some((steps, at)) => (steps, Some(at)),
+        };
+        let (path, halving) = course.step(&self.state, from, course.history.instants()[steps])?;
+        let reached = path.last;
+        let origins = self.state.origins(&course.setup, &reached.state);
+        let step = SolvedStep {
+            number: steps + 1,
+            at: reached.at,
+            driven: course.history.values(reached.at),
+            origins,
+            ledger: path.ledger,
+            total: self.total.plus(&path.ledger),
+            halving,
+            bodies: self.bodies,
+            history: led_to(course.history, steps + 1),
+            state: reached.state,
+        };
+        let setup = course.setup.clone();
+        let mut solution = setup.measure(reached.outcome, reached.displacements)?;
+        solution.step = Some(step);
         Ok(solution)
-    }
-
-    fn solve(&self, setup: &Setup) -> Result<Outcome, Error> {
-        let (problem, settings) = (setup.condensed.problem(), &setup.settings);
-        match self.steps {
-            0 => dpana::solve(problem, settings),
-            _ => dpana::solve_from(problem, settings, &self.reaction, &self.motion),
-        }
     }
 }
 
-impl Solution {
-    /// What the next step needs.
-    fn leave(self) -> (Past, Setup) {
-        let setup = self.setup;
-        let past = match self.step {
-            None => Past::new(&setup),
-            Some(step) => Past {
-                steps: step.number,
-                relative: relative(&setup, &self.displacements, &step.obstacles),
-                reaction: self.outcome.reaction,
-                motion: self.outcome.motion,
-                slip: step.slip,
-                obstacles: step.obstacles,
-                account: Some(step.account),
-                total: step.total,
-            },
-        };
-        (past, setup)
-    }
+/// Everything that steps before a number did to the bodies.
+fn led_to(history: &LoadHistory, steps: usize) -> Fingerprint {
+    let instants = history.instants().iter().take(steps);
+    let states = instants.map(|&at| (at, history.values(at)));
+    Fingerprint::of(&states.collect::<Vec<_>>())
+}
 
+impl Solution {
     /// The state, to take the history on from; none where the scene has no steps.
     #[must_use]
     pub fn saved_state(&self) -> Option<SavedState> {
         let step = self.step.as_ref()?;
         Some(SavedState {
+            bodies: step.bodies,
+            history: step.history,
             steps: step.number,
             at: Exact(step.at),
             reaction: exact(&self.outcome.reaction),
             motion: exact(&self.outcome.motion),
-            slip: exact(&step.slip),
+            slip: exact(step.state.slip()),
             displacements: self.displacements.iter().map(|u| exact(u)).collect(),
             ledger: exact(&step.total.entries()),
         })
@@ -267,6 +236,21 @@ impl SolvedStep {
         self.total
     }
 
+    /// What its halving changed; none where steps are not halved.
+    #[must_use]
+    pub fn halving(&self) -> Option<Halving> {
+        self.halving
+    }
+
+    fn past(&self) -> Past {
+        Past {
+            bodies: self.bodies,
+            state: self.state.clone(),
+            done: Some((self.number, self.at)),
+            total: self.total,
+        }
+    }
+
     pub(super) fn origins(&self) -> &[[f64; 3]] {
         &self.origins
     }
@@ -278,43 +262,7 @@ impl SolvedStep {
             driven: self.driven.clone(),
             ledger: self.ledger.into(),
             total: self.total.into(),
+            halving: self.halving.map(|halving| halving.record()),
         }
     }
-}
-
-/// Displacement of each contact relative to its other side where that is now, in metre.
-fn relative(setup: &Setup, displacements: &[Vec<f64>], obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let dimension = setup.bodies.first().map_or(3, |body| body.mesh.dimension);
-    let contacts = setup.condensed.surface().nodes.iter();
-    contacts
-        .zip(setup.condensed.surface().obstacle_motions(obstacles))
-        .map(|(contact, d)| {
-            let u = relative_displacement(contact, displacements, dimension);
-            [0, 1, 2].map(|axis| u[axis] - d[axis])
-        })
-        .collect()
-}
-
-/// Where the slip of a step counts from, per contact in global axes, in metre.
-fn origins(condensed: &Condensed, relative: &[[f64; 3]], obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
-    let moved = condensed.surface().obstacle_motions(obstacles);
-    let contacts = relative.iter().zip(moved);
-    contacts
-        .map(|(u, d)| [0, 1, 2].map(|axis| u[axis] + d[axis]))
-        .collect()
-}
-
-/// Motion of the other side from one state to the next, in metre per contact unknown.
-fn moved(condensed: &Condensed, before: &[[f64; 3]], after: &[[f64; 3]]) -> Vec<f64> {
-    let surface = condensed.surface();
-    let motions = surface.obstacle_motions(before).into_iter();
-    let motions = motions.zip(surface.obstacle_motions(after));
-    let contacts = surface.nodes.iter();
-    contacts
-        .zip(motions)
-        .flat_map(|(contact, (before, after))| {
-            let rows = contact.frame[..=contact.tangents].iter();
-            rows.map(move |row| (0..3).map(|k| row[k] * (after[k] - before[k])).sum())
-        })
-        .collect()
 }

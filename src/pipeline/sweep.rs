@@ -1,14 +1,16 @@
 //! One scene under many values of friction, loads, supports, gaps and obstacle positions.
 
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use rayon::prelude::*;
 
 use super::Setup;
-use crate::body::{Body, Load, Support};
-use crate::condensation::{ContactPair, ContactProblem, Opposite};
-use crate::dpana::{self, Outcome, Settings, Status};
+use crate::body::Body;
+use crate::condensation::{ContactPair, Driven, Opposite, Superposition};
+use crate::dpana::{self, Outcome, Status};
 use crate::error::{Error, check_finite};
 use crate::report::Table;
-use crate::scene::Scene;
+use crate::scene::{Scene, driven};
 
 /// A quantity of a scene and the values that it takes.
 ///
@@ -26,18 +28,34 @@ pub struct Variation {
     pub values: Vec<f64>,
 }
 
+/// Most cases that start one from another, one after the other.
+const CHAIN: usize = 25;
+
 /// Solves a scene for every combination of values, all on one factorisation, and tabulates totals,
 /// extremes, status and certificate; the last variation changes fastest.
 ///
-/// Along the last variation every case starts from the one before, if that is certified; the rows
-/// are solved side by side on the threads of the current pool: the table does not depend on
-/// their number.
+/// Along the last variation every case starts from the one before, if that is certified, in
+/// chains of at most 25; the chains are solved side by side on the threads of the current pool:
+/// the table does not depend on their number.
 ///
 /// # Errors
 ///
-/// Whatever is wrong with the scene, a scene with load steps, a quantity that it does not have, a
-/// value that the quantity cannot take. Nothing is solved then.
+/// Whatever is wrong with the scene, a scene with load steps, a quantity that it does not have or
+/// that is given twice, a value that the quantity cannot take.
 pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
+    sweep_watched(scene, variations, |_, _| {})
+}
+
+/// The same, telling `done` after every case how many of how many are solved.
+///
+/// # Errors
+///
+/// Those of [`sweep`].
+pub fn sweep_watched(
+    scene: &Scene,
+    variations: &[Variation],
+    done: impl Fn(usize, usize) + Sync,
+) -> Result<Table, Error> {
     let at_scene = |error| scene.locate(error);
     let mut mechanics = scene.mechanics()?;
     if !mechanics.history.instants().is_empty() {
@@ -48,11 +66,8 @@ pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
         }));
     }
     let quantities = Quantities::new(&mechanics.bodies, &mechanics.contacts);
-    let drives: Vec<Drive> = variations
-        .iter()
-        .map(|variation| quantities.find(variation))
-        .collect::<Result<_, _>>()?;
-    let stated: Vec<f64> = mechanics
+    let drives = quantities.find_all(variations)?;
+    let friction: Vec<f64> = mechanics
         .contacts
         .iter()
         .map(|pair| pair.friction)
@@ -67,52 +82,37 @@ pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
         }
     }
     let mut setup = Setup::new(scene, mechanics).map_err(at_scene)?;
+    let driven = drives.iter().filter_map(Drive::driven);
+    let driven: Vec<Driven> = driven.collect();
+    let condensed = &mut setup.condensed;
     let stated = Stated {
-        friction: stated,
-        loads: setup.bodies.iter().map(|body| body.loads.clone()).collect(),
-        supports: setup
-            .bodies
-            .iter()
-            .map(|body| body.supports.clone())
-            .collect(),
-        gaps: setup.condensed.problem().initial_gap().to_vec(),
+        under: condensed
+            .superpose(&setup.bodies, &driven)
+            .map_err(at_scene)?,
+        names: variations.iter().map(|v| v.name.clone()).collect(),
+        friction,
+        gaps: condensed.problem().initial_gap().to_vec(),
+        drives,
+        setup,
     };
     let cases = combinations(variations);
-    let problems: Vec<ContactProblem> = cases
-        .iter()
-        .map(|values| stated.put(&mut setup, &drives, values))
-        .collect::<Result<_, _>>()
-        .map_err(at_scene)?;
+    let (solved, all) = (AtomicUsize::new(0), cases.len());
     let row = variations.last().map_or(1, |last| last.values.len());
-    let outcomes: Vec<Vec<Outcome>> = problems
-        .par_chunks(row.max(1))
-        .map(|row| neighbours(row, &setup.settings))
-        .collect::<Result<_, _>>()
-        .map_err(at_scene)?;
+    let chains = cases.chunks(row.max(1)).flat_map(|row| row.chunks(CHAIN));
+    let chains: Vec<&[Vec<f64>]> = chains.collect();
+    let tables: Vec<Result<Table, Error>> = chains
+        .into_par_iter()
+        .map(|chain| {
+            stated.solve(chain, || {
+                done(solved.fetch_add(1, Ordering::Relaxed) + 1, all);
+            })
+        })
+        .collect();
     let mut table = Table::default();
-    for (values, outcome) in cases.iter().zip(outcomes.into_iter().flatten()) {
-        stated.put(&mut setup, &drives, values).map_err(at_scene)?;
-        let solution = setup.recover(outcome)?;
-        let names = variations.iter().map(|variation| variation.name.clone());
-        let given: Vec<_> = names.zip(values.iter().copied()).collect();
-        table.push(&given, &solution.report()?);
-        setup = solution.setup;
+    for part in tables {
+        table.append(part.map_err(at_scene)?);
     }
     Ok(table)
-}
-
-/// Solves problems that differ little, each from the solution of the one before.
-fn neighbours(row: &[ContactProblem], settings: &Settings) -> Result<Vec<Outcome>, Error> {
-    let mut outcomes: Vec<Outcome> = Vec::with_capacity(row.len());
-    for problem in row {
-        let before = outcomes.last().filter(|o| o.status == Status::Certified);
-        let outcome = match before {
-            Some(near) => dpana::solve_from(problem, settings, &near.reaction, &near.motion),
-            None => dpana::solve(problem, settings),
-        };
-        outcomes.push(outcome?);
-    }
-    Ok(outcomes)
 }
 
 /// All combinations of values, the last varying fastest; one without values if nothing varies.
@@ -133,9 +133,17 @@ fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
 enum Drive {
     Friction(Vec<usize>),
     Gap(Vec<usize>),
-    Load(usize, usize),
-    Support(usize, usize),
+    Factor(Driven),
     Obstacle(usize, usize),
+}
+
+impl Drive {
+    fn driven(&self) -> Option<Driven> {
+        match self {
+            Self::Factor(driven) => Some(*driven),
+            _ => None,
+        }
+    }
 }
 
 /// Everything that can vary, by name.
@@ -148,13 +156,8 @@ impl Quantities {
             ("friction".to_owned(), Drive::Friction(all.clone())),
             ("gap".to_owned(), Drive::Gap(all)),
         ];
-        for (at, body) in bodies.iter().enumerate() {
-            let loads = (0..body.loads.len())
-                .map(|k| (format!("bodies[{at}].loads[{k}]"), Drive::Load(at, k)));
-            let supports = (0..body.supports.len())
-                .map(|k| (format!("bodies[{at}].supports[{k}]"), Drive::Support(at, k)));
-            known.extend(loads.chain(supports));
-        }
+        let driven = driven(bodies).into_iter();
+        known.extend(driven.map(|(place, driven)| (place, Drive::Factor(driven))));
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         for (at, pair) in pairs.iter().enumerate() {
             known.push((
@@ -170,6 +173,20 @@ impl Quantities {
             }
         }
         Self(known)
+    }
+
+    fn find_all(&self, variations: &[Variation]) -> Result<Vec<Drive>, Error> {
+        for (number, Variation { name, .. }) in variations.iter().enumerate() {
+            if variations[..number].iter().any(|other| other.name == *name) {
+                return Err(Error::NotAccepted {
+                    place: "vary".to_owned(),
+                    found: format!("`{name}` twice"),
+                    accepted: "every quantity once".to_owned(),
+                });
+            }
+        }
+        let found = variations.iter().map(|variation| self.find(variation));
+        found.collect()
     }
 
     fn find(&self, variation: &Variation) -> Result<Drive, Error> {
@@ -203,36 +220,49 @@ impl Quantities {
 
 /// What the scene states, before any case.
 struct Stated {
+    setup: Setup,
+    under: Superposition,
+    names: Vec<String>,
+    drives: Vec<Drive>,
     friction: Vec<f64>,
-    loads: Vec<Vec<Load>>,
-    supports: Vec<Vec<Support>>,
     gaps: Vec<f64>,
 }
 
 impl Stated {
-    /// Puts the bodies under the values of a case and returns its contact problem.
-    fn put(
-        &self,
-        setup: &mut Setup,
-        drives: &[Drive],
-        values: &[f64],
-    ) -> Result<ContactProblem, Error> {
+    /// Solves cases that differ little, each from the solution of the one before.
+    fn solve(&self, chain: &[Vec<f64>], mut done: impl FnMut()) -> Result<Table, Error> {
+        let mut table = Table::default();
+        let mut near: Option<Outcome> = None;
+        for values in chain {
+            let setup = self.put(values)?;
+            let (problem, settings) = (setup.condensed.problem(), &setup.settings);
+            let outcome = match &near {
+                Some(near) => dpana::solve_near(problem, settings, near)?,
+                None => dpana::solve(problem, settings)?,
+            };
+            near = (outcome.status == Status::Certified).then(|| outcome.clone());
+            let report = setup.recover(outcome)?.report()?;
+            let given = self.names.iter().cloned().zip(values.iter().copied());
+            table.push(&given.collect::<Vec<_>>(), &report);
+            done();
+        }
+        Ok(table)
+    }
+
+    /// The bodies under the values of a case.
+    fn put(&self, values: &[f64]) -> Result<Setup, Error> {
         let pairs = self.friction.len();
         let (mut friction, mut gaps) = (self.friction.clone(), vec![0.0; pairs]);
-        let mut obstacles = vec![[0.0; 3]; pairs];
-        for (drive, &value) in drives.iter().zip(values) {
+        let (mut obstacles, mut factors) = (vec![[0.0; 3]; pairs], Vec::new());
+        for (drive, &value) in self.drives.iter().zip(values) {
             match drive {
                 Drive::Friction(contacts) => contacts.iter().for_each(|&k| friction[k] = value),
                 Drive::Gap(contacts) => contacts.iter().for_each(|&k| gaps[k] += value),
                 Drive::Obstacle(contact, axis) => obstacles[*contact][*axis] = value,
-                Drive::Load(body, k) => {
-                    setup.bodies[*body].loads[*k] = self.loads[*body][*k].scaled(value);
-                }
-                Drive::Support(body, k) => {
-                    setup.bodies[*body].supports[*k] = self.supports[*body][*k].scaled(value);
-                }
+                Drive::Factor(_) => factors.push(value),
             }
         }
+        let mut setup = self.setup.clone();
         let contacts = &setup.condensed.surface().nodes;
         let friction = contacts
             .iter()
@@ -244,8 +274,9 @@ impl Stated {
             .collect();
         setup.condensed.replace(friction, gaps)?;
         let slip = vec![0.0; setup.condensed.problem().unknowns()];
-        setup.condensed.act(&setup.bodies, &obstacles, &slip)?;
-        Ok(setup.condensed.problem().clone())
+        let condensed = &mut setup.condensed;
+        condensed.act(&self.under, &factors, &obstacles, &slip)?;
+        Ok(setup)
     }
 }
 

@@ -61,6 +61,9 @@ pub struct Point {
     pub open: bool,
 }
 
+/// Points of a curve that have a mark, the last always, so that long curves stay readable.
+const MARKED: usize = 24;
+
 #[derive(Clone, Copy)]
 enum Mark {
     Disc,
@@ -211,11 +214,16 @@ impl Scale {
         let first = (self.low / step).ceil();
         let last = (self.high / step).floor();
         let powers = (0..=(last - first).max(0.0) as usize).map(|k| step * (first + k as f64));
+        let few = range < 3.0;
+        let label = |power: f64| match few {
+            true => plain(10.0_f64.powf(power)),
+            false => power_of_ten(power as i32),
+        };
         let mut ticks: Vec<(f64, String)> = powers
             .filter(|power| (self.low..=self.high).contains(power))
-            .map(|power| (10.0_f64.powf(power), power_of_ten(power as i32)))
+            .map(|power| (10.0_f64.powf(power), label(power)))
             .collect();
-        if range < 3.0 {
+        if few {
             let decades = self.low.floor() as i32..=self.high.floor() as i32;
             for value in decades.flat_map(|d| [2.0, 5.0].map(|m| m * 10.0_f64.powi(d))) {
                 if (self.low..=self.high).contains(&value.log10()) {
@@ -273,7 +281,9 @@ fn draw_curve(svg: &mut String, number: usize, points: &[Point], scales: &[Scale
             words.collect::<Vec<_>>().join(" ")
         );
     }
-    for (point, place) in points.iter().zip(places) {
+    let every = points.len().div_ceil(MARKED).max(1);
+    let marked = points.iter().zip(places).rev().step_by(every);
+    for (point, place) in marked {
         draw_mark(svg, number, place, point.open);
     }
 }

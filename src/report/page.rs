@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::figure::escaped;
-use super::{Status, StudiedRun, Study};
+use super::{Part, Status, StudiedRun, Study};
 
 const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:960px;\
 margin:2em auto;padding:0 1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em}\
@@ -190,9 +190,9 @@ impl Study {
         }
         said.extend(self.duels());
         for name in Self::loops(self.runs.iter()) {
-            let lost = self.runs.iter().filter(|run| {
-                run.name == name && run.status != Status::Certified && run.friction.is_some()
-            });
+            let lost = self
+                .of_part(Part::Friction)
+                .filter(|run| run.name == name && run.status != Status::Certified);
             let lost: Vec<String> = lost
                 .filter_map(|run| run.friction)
                 .map(|mu| mu.to_string())
@@ -207,28 +207,17 @@ impl Study {
     /// The default against Gauss–Seidel, tolerance by tolerance.
     fn duels(&self) -> Vec<String> {
         let mut said = Vec::new();
-        let of = |name: &'static str, like: &StudiedRun| {
-            let (mesh, tolerance) = (like.mesh, like.tolerance);
-            self.runs.iter().find(move |run| {
-                run.name == name
-                    && run.friction.is_none()
-                    && (run.mesh, run.tolerance) == (mesh, tolerance)
-            })
+        let runs = |name: &'static str| {
+            self.of_part(Part::Meshes)
+                .filter(move |run| run.name == name)
         };
-        let own = self
-            .runs
-            .iter()
-            .filter(|run| run.friction.is_none() && run.name == "NSGS");
-        let mut seen = Vec::new();
-        for baseline in own {
-            let Some(default) = of("default", baseline) else {
+        for baseline in runs("NSGS") {
+            let like = |run: &&StudiedRun| {
+                (run.mesh, run.tolerance) == (baseline.mesh, baseline.tolerance)
+            };
+            let Some(default) = runs("default").find(like) else {
                 continue;
             };
-            let key = (baseline.mesh, baseline.tolerance);
-            if seen.contains(&key) {
-                continue;
-            }
-            seen.push(key);
             let (contacts, passes) = (baseline.contacts, baseline.passes);
             let to = format!("{contacts} contacts to {:.0e}", baseline.tolerance);
             let (slow, fast) = (baseline.seconds, default.seconds);

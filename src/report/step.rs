@@ -17,6 +17,22 @@ pub struct Step {
     pub ledger: Ledger,
     /// The same since the start of the history.
     pub total: Ledger,
+    /// What halving the step still changes; absent where the scene does not ask for it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub halving: Option<Halving>,
+}
+
+/// A step that was solved in parts, and what halving these would change.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Halving {
+    /// Parts that the step was solved in.
+    pub parts: usize,
+    /// Change of the dissipated energy, in joule.
+    pub dissipation: f64,
+    /// Most contacts that any part ends with in another state.
+    pub contacts: usize,
+    /// Both, and what the parts leave unexplained, are below what the scene asks for.
+    pub resolved: bool,
 }
 
 /// Work and energy, in joule; see [`kkt::Ledger`].

@@ -45,7 +45,8 @@ pub struct StudiedMesh {
     /// Oscillation of the pressure, estimated error of the stress.
     pub quality: Quality,
     /// Difference to the displacement on the finest mesh, relative in the energy norm; `null` on
-    /// the finest, and where the nodes of a mesh are no product of lines.
+    /// the finest, where the nodes of a mesh are no product of lines, and where a body is nearly
+    /// incompressible.
     pub error: Option<f64>,
     /// The estimated error over that difference.
     pub effectivity: Option<f64>,
@@ -89,9 +90,23 @@ pub struct StageSeconds {
     pub estimate: f64,
 }
 
+/// What a run is held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Part {
+    /// The default and the baseline, mesh by mesh.
+    Meshes,
+    /// All loops on one mesh, tolerance by tolerance.
+    Loops,
+    /// All loops on that mesh, friction by friction.
+    Friction,
+}
+
 /// One loop on one mesh to one tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudiedRun {
+    /// What it is held against.
+    pub part: Part,
     /// Mesh, as an index into the study's meshes.
     pub mesh: usize,
     /// Name of the loop.
@@ -175,7 +190,7 @@ impl Study {
             let mut row = vec![
                 ("unknowns".to_owned(), count(mesh.unknowns)),
                 ("contacts".to_owned(), count(mesh.size.contacts)),
-                ("status".to_owned(), Cell::Word(mesh.status.word())),
+                ("status".to_owned(), Cell::Word(mesh.status.word().into())),
                 (
                     "natural_map".to_owned(),
                     number(mesh.certificate.natural_map),
@@ -210,7 +225,8 @@ impl Study {
         for run in &self.runs {
             let (count, number) = (Cell::Count, Cell::Number);
             table.add(vec![
-                ("loop".to_owned(), Cell::Word(run.name)),
+                ("part".to_owned(), Cell::Word(run.part.word().into())),
+                ("loop".to_owned(), Cell::Word(run.name.into())),
                 ("mesh".to_owned(), count(run.mesh)),
                 ("contacts".to_owned(), count(run.contacts)),
                 (
@@ -218,7 +234,7 @@ impl Study {
                     number(run.friction.unwrap_or(f64::NAN)),
                 ),
                 ("tolerance".to_owned(), number(run.tolerance)),
-                ("status".to_owned(), Cell::Word(run.status.word())),
+                ("status".to_owned(), Cell::Word(run.status.word().into())),
                 ("natural_map".to_owned(), number(run.natural_map)),
                 ("energy_gap".to_owned(), number(run.energy_gap)),
                 ("distance".to_owned(), number(run.distance)),
@@ -230,6 +246,18 @@ impl Study {
             ]);
         }
         table
+    }
+}
+
+impl Part {
+    /// As JSON and tables spell it.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Meshes => "meshes",
+            Self::Loops => "loops",
+            Self::Friction => "friction",
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! The figures of a study.
 
 use super::figure::{Axis, Curve, Figure, Point};
-use super::{Status, StudiedMesh, StudiedRun, Study};
+use super::{Part, Status, StudiedMesh, StudiedRun, Study};
 
 impl Study {
     /// The figures that the study has points for, each with a short name for its file.
@@ -21,17 +21,9 @@ impl Study {
         drawn.collect()
     }
 
-    /// Loops that were compared on one mesh, with the scene's friction.
-    pub(super) fn compared(&self) -> impl Iterator<Item = &StudiedRun> {
-        let mesh = self.compared_on();
-        let own = move |run: &&StudiedRun| run.friction.is_none() && Some(run.mesh) == mesh;
-        self.runs.iter().filter(own)
-    }
-
-    /// The mesh on which loops were compared: the one with the most of them.
-    pub(super) fn compared_on(&self) -> Option<usize> {
-        let runs = |mesh: usize| self.runs.iter().filter(move |run| run.mesh == mesh).count();
-        (0..self.meshes.len()).max_by_key(|mesh| runs(*mesh))
+    /// Runs of one part.
+    pub(super) fn of_part(&self, part: Part) -> impl Iterator<Item = &StudiedRun> {
+        self.runs.iter().filter(move |run| run.part == part)
     }
 
     /// Names of loops, each once, in the order of their first run.
@@ -46,10 +38,8 @@ impl Study {
     }
 
     fn contacts(&self) -> String {
-        let mesh = self.compared_on().and_then(|mesh| self.meshes.get(mesh));
-        mesh.map_or_else(String::new, |mesh| {
-            format!(", {} contacts", mesh.size.contacts)
-        })
+        let run = self.of_part(Part::Loops).next();
+        run.map_or_else(String::new, |run| format!(", {} contacts", run.contacts))
     }
 
     fn mesh_error(&self) -> Figure {
@@ -115,15 +105,7 @@ impl Study {
 
     fn time_contacts(&self) -> Figure {
         let mut curves: Vec<Curve> = Vec::new();
-        let of_scene = self.runs.iter().filter(|run| run.friction.is_none());
-        let ends = |run: &&StudiedRun| ["default", "NSGS"].contains(&run.name);
-        let mut seen: Vec<(&str, f64, usize)> = Vec::new();
-        for run in of_scene.filter(ends) {
-            let key = (run.name, run.tolerance, run.mesh);
-            if seen.contains(&key) {
-                continue;
-            }
-            seen.push(key);
+        for run in self.of_part(Part::Meshes) {
             let name = format!("{} to {:.0e}", run.name, run.tolerance);
             let point = Point {
                 at: [run.contacts as f64, run.seconds],
@@ -159,7 +141,10 @@ impl Study {
     }
 
     fn residual_time(&self) -> Figure {
-        let tightest = self.compared().map(|run| run.tolerance).fold(1.0, f64::min);
+        let tightest = self
+            .of_part(Part::Loops)
+            .map(|run| run.tolerance)
+            .fold(1.0, f64::min);
         self.by_loop(
             &format!("Residual against time{}", self.contacts()),
             ["seconds on the condensed problem", "natural-map residual"],
@@ -177,7 +162,7 @@ impl Study {
         points: impl Fn(&StudiedRun) -> Vec<[f64; 2]>,
     ) -> Figure {
         let curve = |name: &str| {
-            let own = self.compared().filter(|run| run.name == name);
+            let own = self.of_part(Part::Loops).filter(|run| run.name == name);
             let points = own.flat_map(|run| {
                 let open = run.status != Status::Certified;
                 points(run).into_iter().map(move |at| Point { at, open })
@@ -187,7 +172,7 @@ impl Study {
                 points: points.collect(),
             }
         };
-        let names = Self::loops(self.compared()).into_iter();
+        let names = Self::loops(self.of_part(Part::Loops)).into_iter();
         Figure {
             title: title.to_owned(),
             across: decades(labels[0]),
@@ -198,7 +183,7 @@ impl Study {
     }
 
     fn sweeps_friction(&self) -> Figure {
-        let varied = || self.runs.iter().filter(|run| run.friction.is_some());
+        let varied = || self.of_part(Part::Friction);
         let curve = |name: &'static str| {
             let own = varied().filter(|run| run.name == name);
             let points = own.map(|run| Point {

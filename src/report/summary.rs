@@ -119,7 +119,10 @@ fn quality(text: &mut String, report: &Report) -> std::fmt::Result {
 }
 
 fn percent(part: f64) -> String {
-    format!("{} %", number(100.0 * part))
+    match 100.0 * part {
+        percent if percent >= 0.1 => format!("{percent:.1} %"),
+        percent => format!("{percent:.0e} %"),
+    }
 }
 
 /// Where the work of a load history went so far.
@@ -134,6 +137,15 @@ fn energy(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(
         text,
         "energy          work {work}, elastic {elastic}, friction {friction}, unexplained {open}"
+    )?;
+    let Some(halving) = step.halving else {
+        return Ok(());
+    };
+    let (parts, contacts) = (halving.parts, halving.contacts);
+    let friction = size(halving.dissipation);
+    writeln!(
+        text,
+        "halving         the step's {parts} parts changes friction by {friction}, {contacts} contacts"
     )
 }
 

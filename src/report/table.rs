@@ -1,6 +1,9 @@
 //! Totals of many states: a row per load step or per case.
 
+use std::borrow::Cow;
+
 use serde::Serialize;
+use serde_json::Value;
 
 use super::Report;
 
@@ -13,7 +16,7 @@ pub enum Cell {
     /// A count.
     Count(usize),
     /// A word.
-    Word(&'static str),
+    Word(Cow<'static, str>),
 }
 
 /// Rows under named columns.
@@ -40,6 +43,12 @@ impl Table {
         self.rows.push(row);
     }
 
+    /// Appends the rows of a table that has the same columns, or of the first one.
+    pub(crate) fn append(&mut self, other: Self) {
+        self.columns = other.columns;
+        self.rows.extend(other.rows);
+    }
+
     /// Values of a column; those that are no numbers are NaN. None if there is no such column.
     #[must_use]
     pub fn column(&self, name: &str) -> Option<Vec<f64>> {
@@ -50,6 +59,40 @@ impl Table {
             Some(Cell::Word(_)) | None => f64::NAN,
         });
         Some(numbers.collect())
+    }
+
+    /// Reads a table that was written as CSV or JSON; none where the text is no such table.
+    #[must_use]
+    pub fn read(text: &str) -> Option<Self> {
+        let table = match text.starts_with('{') {
+            true => Self::of_json(text)?,
+            false => Self::of_csv(text)?,
+        };
+        let width = table.columns.len();
+        let whole = table.rows.iter().all(|row| row.len() == width);
+        whole.then_some(table)
+    }
+
+    fn of_csv(text: &str) -> Option<Self> {
+        let mut lines = text.lines();
+        let columns = lines.next()?.split(',').map(str::to_owned).collect();
+        let rows = lines.map(|line| line.split(',').map(Cell::of_text).collect());
+        Some(Self {
+            columns,
+            rows: rows.collect(),
+        })
+    }
+
+    fn of_json(text: &str) -> Option<Self> {
+        let read: Value = serde_json::from_str(text).ok()?;
+        let columns = read.get("columns")?.as_array()?.iter();
+        let columns = columns.map(|name| name.as_str().map(str::to_owned));
+        let rows = read.get("rows")?.as_array()?.iter();
+        let rows = rows.map(|row| Some(row.as_array()?.iter().map(Cell::of_value).collect()));
+        Some(Self {
+            columns: columns.collect::<Option<_>>()?,
+            rows: rows.collect::<Option<_>>()?,
+        })
     }
 
     /// The table as comma-separated values, every number with all its digits.
@@ -77,7 +120,26 @@ impl Cell {
             Self::Number(value) if value.is_finite() => format!("{value:?}"),
             Self::Number(_) => String::new(),
             Self::Count(count) => count.to_string(),
-            Self::Word(word) => (*word).to_owned(),
+            Self::Word(word) => word.to_string(),
+        }
+    }
+
+    /// Reads what [`text`](Self::text) writes.
+    fn of_text(text: &str) -> Self {
+        match (text, text.parse(), text.parse()) {
+            ("", ..) => Self::Number(f64::NAN),
+            (_, Ok(count), _) => Self::Count(count),
+            (_, Err(_), Ok(number)) => Self::Number(number),
+            (word, Err(_), Err(_)) => Self::Word(Cow::Owned(word.to_owned())),
+        }
+    }
+
+    /// Reads what is serialised.
+    fn of_value(value: &Value) -> Self {
+        match value {
+            Value::Number(number) => Self::of_text(&number.to_string()),
+            Value::String(word) => Self::Word(Cow::Owned(word.clone())),
+            _ => Self::Number(f64::NAN),
         }
     }
 }
@@ -93,7 +155,7 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
         axes.map(move |(axis, value)| (format!("{name}_{axis}"), Cell::Number(value)))
             .collect::<Vec<_>>()
     };
-    let mut row = vec![("status".to_owned(), Cell::Word(report.status.word()))];
+    let mut row = vec![("status".to_owned(), Cell::Word(report.status.word().into()))];
     row.extend([
         number("natural_map", report.certificate.natural_map),
         count("open", totals.open),
@@ -131,6 +193,11 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
             number("elastic_energy", step.total.elastic),
             number("dissipation", step.total.dissipation),
             number("closure", step.total.closure),
+            count("parts", step.halving.map_or(1, |halving| halving.parts)),
+            number(
+                "halving",
+                step.halving.map_or(f64::NAN, |halving| halving.dissipation),
+            ),
         ]);
     }
     row.into_iter()
@@ -147,4 +214,37 @@ fn extreme(
 
 fn length(vector: &[f64]) -> f64 {
     vector.iter().fold(0.0, |size: f64, u| size.hypot(*u))
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn a_table_that_was_written_is_read_to_the_last_digit() {
+        let numbers = [0.1 + 0.2, -0.0, 5e-324, 3.0, f64::MAX, -1e-7];
+        let row = |number| {
+            let word = Cell::Word(Cow::Borrowed("certified"));
+            vec![Cell::Number(number), Cell::Count(3), word]
+        };
+        let mut table = Table {
+            columns: ["at", "open", "status"].map(str::to_owned).to_vec(),
+            rows: numbers.map(row).to_vec(),
+        };
+        assert_eq!(Table::read(&table.to_csv()).unwrap(), table);
+        assert_eq!(Table::read(&table.to_json()).unwrap(), table);
+        // Nothing is written for what is not finite.
+        table.rows.push(row(f64::NAN));
+        for text in [table.to_csv(), table.to_json()] {
+            assert!(Table::read(&text).unwrap().column("at").unwrap()[6].is_nan());
+        }
+    }
+
+    #[test]
+    fn text_that_is_no_table_is_not_read() {
+        for text in ["", "a,b\n1\n", "{", "{\"columns\": [1], \"rows\": []}"] {
+            assert_eq!(Table::read(text), None, "{text}");
+        }
+    }
 }

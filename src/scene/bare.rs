@@ -12,6 +12,9 @@ use super::json;
 use crate::condensation::{ContactProblem, Operator};
 use crate::error::{Error, check_length};
 
+/// Most unknowns of a problem: W is dense in memory, 3.2 GB there.
+const MOST_UNKNOWNS: usize = 20_000;
+
 /// A discrete frictional contact problem: contact-major, normal first.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -56,7 +59,7 @@ impl BareProblem {
     ///
     /// # Errors
     ///
-    /// Arrays that do not fit together, and all that [`Operator::from_compliance`] and
+    /// Arrays that do not fit together, more than 20,000 unknowns, and all that [`Operator::from_compliance`] and
     /// [`ContactProblem::new`] refuse.
     pub fn to_problem(&self) -> Result<ContactProblem, Error> {
         if !(2..=3).contains(&self.dimension) {
@@ -66,8 +69,8 @@ impl BareProblem {
                 accepted: "2 or 3",
             });
         }
-        let unknowns = self.q.len();
-        check_length("q", self.contacts * self.dimension, unknowns)?;
+        let unknowns = self.unknowns()?;
+        check_length("q", unknowns, self.q.len())?;
         check_length("w_rows", self.w_values.len(), self.w_rows.len())?;
         check_length("w_cols", self.w_values.len(), self.w_cols.len())?;
         let sign = |unknown: usize| {
@@ -99,5 +102,16 @@ impl BareProblem {
                 .collect(),
             Operator::from_compliance(compliance)?,
         )
+    }
+
+    fn unknowns(&self) -> Result<usize, Error> {
+        let unknowns = self.contacts.checked_mul(self.dimension);
+        unknowns
+            .filter(|&unknowns| unknowns <= MOST_UNKNOWNS)
+            .ok_or_else(|| Error::OutOfRange {
+                place: "contacts".into(),
+                value: self.contacts as f64,
+                accepted: "contacts × dimension <= 20000",
+            })
     }
 }

@@ -66,9 +66,10 @@ pub struct SceneMaterial {
 }
 
 impl SceneBody {
-    /// The body in the terms of mechanics; mesh files are relative to `folder`.
-    pub(super) fn resolve(&self, place: &str, folder: &Path) -> Result<Body, Error> {
-        let mesh = self.mesh.mesh(&format!("{place}.mesh"), folder)?;
+    /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
+    /// `folder`.
+    pub(super) fn resolve(&self, place: &str, folder: &Path, room: usize) -> Result<Body, Error> {
+        let mesh = self.mesh.mesh(&format!("{place}.mesh"), folder, room)?;
         let model = self.resolve_model(place, mesh.dimension)?;
         let (materials, material_of_cell) = self.resolve_materials(place, &mesh)?;
         let supports = (self.supports.iter().enumerate())

@@ -9,8 +9,8 @@ use super::read;
 use crate::body::{CellKind, Mesh, box_mesh, gmsh, graded, rectangle};
 use crate::error::Error;
 
-/// Most nodes of a generated mesh: beyond it a slip of the pen would fill the memory.
-const MOST_NODES: usize = 20_000_000;
+/// Most nodes of all bodies together: beyond it a slip of the pen would fill the memory.
+pub(super) const MOST_NODES: usize = 20_000_000;
 
 /// Where a body's mesh comes from.
 #[derive(Clone, Debug, PartialEq, JsonSchema)]
@@ -140,10 +140,19 @@ impl<'de> Deserialize<'de> for MeshSource {
 }
 
 impl MeshSource {
-    /// Reads, generates or copies the mesh; files are relative to `folder`.
-    pub(super) fn mesh(&self, place: &str, folder: &Path) -> Result<Mesh, Error> {
+    /// Reads, generates or copies the mesh, of at most `room` nodes; files are relative to `folder`.
+    pub(super) fn mesh(&self, place: &str, folder: &Path, room: usize) -> Result<Mesh, Error> {
         match self {
-            Self::File { file, scale } => from_file(place, &folder.join(file), *scale),
+            Self::File { file, scale } => {
+                let mesh = from_file(place, &folder.join(file), *scale)?;
+                let place = || format!("{place}.file");
+                check_room(
+                    place,
+                    mesh.nodes.len().to_string(),
+                    mesh.nodes.len() <= room,
+                )?;
+                Ok(mesh)
+            }
             Self::Rectangle { rectangle: shape } => {
                 let place = format!("{place}.rectangle");
                 let kind = match shape.cell {
@@ -151,7 +160,7 @@ impl MeshSource {
                     PlaneCell::Tri3 => CellKind::Tri3,
                 };
                 let axes = [("x", shape.x), ("y", shape.y)];
-                let [xs, ys] = coordinates(&place, axes, shape.cells, shape.grading)?;
+                let [xs, ys] = coordinates(&place, axes, shape.cells, shape.grading, room)?;
                 rectangle(&xs, &ys, kind).map_err(|error| error.within(place))
             }
             Self::Box { solid: shape } => {
@@ -161,7 +170,7 @@ impl MeshSource {
                     SolidCell::Tet4 => CellKind::Tet4,
                 };
                 let axes = [("x", shape.x), ("y", shape.y), ("z", shape.z)];
-                let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading)?;
+                let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading, room)?;
                 box_mesh(&xs, &ys, &zs, kind).map_err(|error| error.within(place))
             }
             Self::Given(mesh) => {
@@ -212,23 +221,34 @@ fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {
     Ok(mesh)
 }
 
+/// Refuses a mesh that has no room beside those of the bodies before it.
+fn check_room(place: impl Fn() -> String, found: String, fits: bool) -> Result<(), Error> {
+    match fits {
+        true => Ok(()),
+        false => Err(Error::NotAccepted {
+            place: place(),
+            found,
+            accepted: format!("at most {MOST_NODES} nodes in all bodies together"),
+        }),
+    }
+}
+
 /// Positions of the grid lines along each axis.
 fn coordinates<const AXES: usize>(
     place: &str,
     axes: [(&str, [f64; 2]); AXES],
     cells: [usize; AXES],
     grading: [f64; AXES],
+    room: usize,
 ) -> Result<[Vec<f64>; AXES], Error> {
     let nodes = cells.iter().try_fold(1_usize, |nodes, &count| {
         nodes.checked_mul(count.checked_add(1)?)
     });
-    if nodes.is_none_or(|nodes| nodes > MOST_NODES) {
-        return Err(Error::NotAccepted {
-            place: format!("{place}.cells"),
-            found: format!("{cells:?}"),
-            accepted: format!("at most {MOST_NODES} nodes in all"),
-        });
-    }
+    check_room(
+        || format!("{place}.cells"),
+        format!("{cells:?}"),
+        nodes.is_some_and(|nodes| nodes <= room),
+    )?;
     let mut lines = std::array::from_fn(|_| Vec::new());
     for (at, (axis, [start, end])) in axes.into_iter().enumerate() {
         lines[at] = graded(start, end, cells[at], grading[at])

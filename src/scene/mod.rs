@@ -40,9 +40,11 @@ pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
-pub use saved_state::{Exact, SavedState, exact, plain};
-pub use steps::{LoadHistory, SceneSteps};
+pub use saved_state::{Exact, Fingerprint, SavedState, exact, plain};
+pub use steps::{LoadHistory, SceneSteps, driven};
 pub use support::SceneSupport;
+
+use mesh_source::MOST_NODES;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
@@ -159,10 +161,12 @@ impl Scene {
             });
         }
         let folder = self.source.parent().unwrap_or(Path::new(""));
-        let bodies = self.bodies.iter().enumerate();
-        let bodies: Vec<Body> = bodies
-            .map(|(at, body)| body.resolve(&format!("bodies[{at}]"), folder))
-            .collect::<Result<_, _>>()?;
+        let (mut bodies, mut room) = (Vec::with_capacity(self.bodies.len()), MOST_NODES);
+        for (at, body) in self.bodies.iter().enumerate() {
+            let body = body.resolve(&format!("bodies[{at}]"), folder, room)?;
+            room = room.saturating_sub(body.mesh.nodes.len());
+            bodies.push(body);
+        }
         check_together(&bodies)?;
         let contacts = self.contacts.iter().enumerate();
         let contacts = contacts

@@ -1,9 +1,16 @@
 //! The known name that is spelt most like an unknown one.
 
+/// Longest name that is compared, in bytes: the work grows with the product of two lengths.
+const LONGEST: usize = 200;
+
 /// Nearest name by edit distance, case aside; none where nothing comes close.
 pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST {
+        return None;
+    }
     let letters: Vec<char> = name.to_lowercase().chars().collect();
     known
+        .filter(|candidate| candidate.len() <= LONGEST)
         .map(|candidate| {
             let other: Vec<char> = candidate.to_lowercase().chars().collect();
             let accepted = letters.len().max(other.len()).div_ceil(3);

@@ -7,8 +7,8 @@ use serde::Deserialize;
 
 use super::spelling;
 use super::table::Table;
-use crate::body::{Body, Load, Support};
-use crate::condensation::{ContactPair, Opposite};
+use crate::body::Body;
+use crate::condensation::{ContactPair, Driven, Opposite};
 use crate::error::{Error, check_finite};
 
 /// A load history, quasi-static: one state per instant, each with the law of friction on the
@@ -31,28 +31,28 @@ pub struct SceneSteps {
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or
     /// `[instant, x, y, z]`, in metre, rising, under the place of its contact, such as
-    /// `contacts[0]`. Round obstacles keep the normals that they have there.
+    /// `contacts[0]`. Normals stay those of the obstacle where the scene puts it: gaps follow a
+    /// motion `d` along them, as they follow all displacements, which leaves out `d² / 2R` of a
+    /// motion across the normals of an obstacle of radius R.
     #[serde(default)]
     pub obstacles: BTreeMap<String, Vec<Vec<f64>>>,
+    /// Left out, every step is solved once. Given, also in halves, and in halves of these, until
+    /// the ledger leaves at most this part of the work unexplained, and halving changes the
+    /// dissipated energy by at most this part of the work, and the state of contacts on at most this
+    /// part of the area of contact; or until there are 128 parts, with a note. The first step is
+    /// not halved: nothing is stated of the way to it.
+    #[schemars(range(min = 1e-12, max = 1))]
+    pub resolve: Option<f64>,
 }
 
 /// A load history in the terms of mechanics; none where the scene has no steps.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadHistory {
     instants: Vec<f64>,
-    loads: Vec<Driven<Load>>,
-    supports: Vec<Driven<Support>>,
+    factors: Vec<(Driven, Table)>,
     obstacles: Vec<(usize, Table)>,
     contacts: usize,
-}
-
-/// A load or support as the scene states it, and its factor over the instants.
-#[derive(Clone, Debug, PartialEq)]
-struct Driven<T> {
-    body: usize,
-    index: usize,
-    stated: T,
-    factor: Table,
+    resolution: Option<f64>,
 }
 
 impl SceneSteps {
@@ -74,34 +74,29 @@ impl SceneSteps {
                 accepted: "an instant after the one before",
             });
         }
+        if let Some(value) = self.resolve.filter(|part| !(1e-12..=1.0).contains(part)) {
+            return Err(Error::OutOfRange {
+                place: "steps.resolve".to_owned(),
+                value,
+                accepted: "1e-12 <= resolve <= 1",
+            });
+        }
         let mut history = LoadHistory {
             instants: self.at.clone(),
             contacts: contacts.len(),
+            resolution: self.resolve,
             ..LoadHistory::default()
         };
-        let known = places(bodies);
+        let known = driven(bodies);
         for (name, rows) in &self.factors {
             let place = format!("steps.factors.{name}");
-            let known_names = known.iter().map(|(name, ..)| name.as_str());
-            let (_, body, list, index) = known
+            let known_names = known.iter().map(|(name, _)| name.as_str());
+            let (_, driven) = known
                 .iter()
-                .find(|(known, ..)| known == name)
+                .find(|(known, _)| known == name)
                 .ok_or_else(|| unknown(&place, "load or support", name, known_names))?;
-            let (body, index, factor) = (*body, *index, Table::new(&place, rows, 1)?);
-            match list {
-                List::Loads => history.loads.push(Driven {
-                    body,
-                    index,
-                    stated: bodies[body].loads[index].clone(),
-                    factor,
-                }),
-                List::Supports => history.supports.push(Driven {
-                    body,
-                    index,
-                    stated: bodies[body].supports[index].clone(),
-                    factor,
-                }),
-            }
+            let factor = Table::new(&place, rows, 1)?;
+            history.factors.push((*driven, factor));
         }
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let obstacles = contacts.iter().enumerate();
@@ -122,25 +117,24 @@ impl SceneSteps {
     }
 }
 
-#[derive(Clone, Copy)]
-enum List {
-    Loads,
-    Supports,
-}
-
-/// Every load and support by its place.
-fn places(bodies: &[Body]) -> Vec<(String, usize, List, usize)> {
+/// Every load and support of bodies, by its place in the scene, such as `bodies[0].loads[1]`.
+#[must_use]
+pub fn driven(bodies: &[Body]) -> Vec<(String, Driven)> {
     let mut places = Vec::new();
-    for (at, body) in bodies.iter().enumerate() {
-        for (list, name, count) in [
-            (List::Loads, "loads", body.loads.len()),
-            (List::Supports, "supports", body.supports.len()),
-        ] {
-            let of_list = (0..count).map(|k| (format!("bodies[{at}].{name}[{k}]"), at, list, k));
-            places.extend(of_list);
-        }
+    for (body, of) in bodies.iter().enumerate() {
+        let loads = (0..of.loads.len()).map(|index| Driven::Load { body, index });
+        let supports = (0..of.supports.len()).map(|index| Driven::Support { body, index });
+        places.extend(loads.chain(supports).map(|driven| (place(driven), driven)));
     }
     places
+}
+
+/// Where a scene states it.
+fn place(driven: Driven) -> String {
+    match driven {
+        Driven::Load { body, index } => format!("bodies[{body}].loads[{index}]"),
+        Driven::Support { body, index } => format!("bodies[{body}].supports[{index}]"),
+    }
 }
 
 fn unknown<'a>(
@@ -165,16 +159,23 @@ impl LoadHistory {
         &self.instants
     }
 
-    /// Puts the bodies under the loads and supports of an instant.
-    pub fn apply(&self, instant: f64, bodies: &mut [Body]) {
-        for load in &self.loads {
-            let factor = load.factor.at(instant)[0];
-            bodies[load.body].loads[load.index] = load.stated.scaled(factor);
-        }
-        for support in &self.supports {
-            let factor = support.factor.at(instant)[0];
-            bodies[support.body].supports[support.index] = support.stated.scaled(factor);
-        }
+    /// The loads and supports that have a table.
+    #[must_use]
+    pub fn driven(&self) -> Vec<Driven> {
+        self.factors.iter().map(|(driven, _)| *driven).collect()
+    }
+
+    /// Their factors at an instant.
+    #[must_use]
+    pub fn factors(&self, instant: f64) -> Vec<f64> {
+        let tables = self.factors.iter();
+        tables.map(|(_, table)| table.at(instant)[0]).collect()
+    }
+
+    /// By how much halving a step may change it; none where steps are not halved.
+    #[must_use]
+    pub fn resolution(&self) -> Option<f64> {
+        self.resolution
     }
 
     /// How far the obstacle of every contact has moved at an instant, in metre.
@@ -191,19 +192,13 @@ impl LoadHistory {
 
     /// Every table's value at an instant, under the place of what it drives.
     #[must_use]
-    pub fn driven(&self, instant: f64) -> Vec<(String, f64)> {
-        let loads = self.loads.iter().map(|load| {
-            let name = format!("bodies[{}].loads[{}]", load.body, load.index);
-            (name, load.factor.at(instant)[0])
-        });
-        let supports = self.supports.iter().map(|support| {
-            let name = format!("bodies[{}].supports[{}]", support.body, support.index);
-            (name, support.factor.at(instant)[0])
-        });
+    pub fn values(&self, instant: f64) -> Vec<(String, f64)> {
+        let factors = self.factors.iter();
+        let factors = factors.map(|(driven, table)| (place(*driven), table.at(instant)[0]));
         let obstacles = self.obstacles.iter().flat_map(|(contact, table)| {
             let axes = ["x", "y", "z"].into_iter().zip(table.at(instant));
             axes.map(move |(axis, value)| (format!("contacts[{contact}].{axis}"), value))
         });
-        loads.chain(supports).chain(obstacles).collect()
+        factors.chain(obstacles).collect()
     }
 }

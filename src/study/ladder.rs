@@ -13,12 +13,15 @@ use crate::scene::Scene;
 /// Shorter solves, in second, are repeated.
 pub(super) const SHORT: f64 = 0.25;
 
+/// A grid and the displacement of its nodes.
+type Field = (TensorGrid, Vec<f64>);
+
 /// The meshes so far.
 #[derive(Default)]
 pub(super) struct Ladder {
     meshes: Vec<StudiedMesh>,
-    /// Grid and displacement of every body, per mesh; none where the mesh is no grid.
-    fields: Vec<Vec<Option<(TensorGrid, Vec<f64>)>>>,
+    /// The fields of every body, per mesh; none where the mesh is no grid.
+    fields: Vec<Vec<Option<Field>>>,
     finest: Option<Solution>,
     chosen: Option<(usize, ContactProblem)>,
 }
@@ -119,12 +122,16 @@ fn known(report: &Report, plan: &Plan) -> Result<Vec<KnownTotal>, Error> {
 }
 
 /// `‖I u − u*‖ / ‖u*‖` in the energy norm of the finest mesh, `I u` a coarser displacement at its
-/// nodes; none where a mesh is no grid.
-fn energy_error(finest: &Solution, fields: &[Option<(TensorGrid, Vec<f64>)>]) -> Option<f64> {
+/// nodes; none where a mesh is no grid, and in nearly incompressible bodies, where the dilatation
+/// between the coarser nodes would be taken for stress.
+fn energy_error(finest: &Solution, fields: &[Option<Field>]) -> Option<f64> {
     let (mut error, mut energy) = (0.0, 0.0);
     let bodies = finest.bodies().iter().zip(finest.condensed().bodies());
     for (((body, condensed), fine), coarse) in bodies.zip(finest.displacements()).zip(fields) {
         let (grid, nodal) = coarse.as_ref()?;
+        if body.averages_dilatation() {
+            return None;
+        }
         let positions = body.mesh.nodes.iter();
         let at_nodes = positions.flat_map(|position| grid.displacement(nodal, *position));
         let difference: Vec<f64> = at_nodes.zip(fine).map(|(a, b)| a - b).collect();

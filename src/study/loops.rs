@@ -8,7 +8,7 @@ use super::plan::Plan;
 use crate::condensation::ContactProblem;
 use crate::dpana::{self, Mixing, Outcome, Settings, Sweeps, Variant};
 use crate::error::Error;
-use crate::report::StudiedRun;
+use crate::report::{Part, StudiedRun};
 
 /// Loops by name: the default first, the baseline last.
 const LOOPS: [(&str, Variant); 9] = [
@@ -48,6 +48,7 @@ struct Reference {
 /// One loop on one problem to one tolerance.
 pub(super) struct LoopRun<'a> {
     plan: &'a Plan,
+    part: Part,
     mesh: usize,
     reference: Rc<Reference>,
     name: &'static str,
@@ -61,14 +62,13 @@ pub(super) fn of_mesh<'a>(
     problem: &ContactProblem,
     plan: &'a Plan,
 ) -> Result<Vec<LoopRun<'a>>, Error> {
-    let reference = Rc::new(Reference::new(problem.clone(), None, plan)?);
+    let part = Part::Meshes;
+    let set = Set { part, mesh, plan };
+    let reference = Reference::new(problem.clone(), None, plan)?.into();
     let ends = [LOOPS[0], LOOPS[LOOPS.len() - 1]];
     let (loosest, tightest) = tolerances(plan);
-    let mut runs = Vec::new();
-    for tolerance in [loosest, tightest] {
-        runs.extend(runs_of(&ends, mesh, &reference, tolerance, plan));
-    }
-    Ok(runs)
+    let runs = [loosest, tightest].map(|tolerance| set.runs(&ends, &reference, tolerance));
+    Ok(runs.into_iter().flatten().collect())
 }
 
 /// Every loop to every tolerance, then every loop with every coefficient of friction to the
@@ -78,44 +78,52 @@ pub(super) fn all<'a>(
     problem: &ContactProblem,
     plan: &'a Plan,
 ) -> Result<Vec<LoopRun<'a>>, Error> {
-    let reference = Rc::new(Reference::new(problem.clone(), None, plan)?);
+    let set = |part| Set { part, mesh, plan };
+    let reference = Reference::new(problem.clone(), None, plan)?.into();
     let mut runs = Vec::new();
     for &tolerance in &plan.tolerances {
-        runs.extend(runs_of(&LOOPS, mesh, &reference, tolerance, plan));
+        runs.extend(set(Part::Loops).runs(&LOOPS, &reference, tolerance));
     }
     let has_tangents = problem.unknowns() > problem.contacts();
     for &friction in plan.friction.iter().filter(|_| has_tangents) {
         let blocks = problem.offsets().windows(2);
         let per_contact = blocks.map(|ends| if ends[1] - ends[0] > 1 { friction } else { 0.0 });
         let problem = problem.with_friction(per_contact.collect())?;
-        let reference = Rc::new(Reference::new(problem, Some(friction), plan)?);
-        runs.extend(runs_of(&LOOPS, mesh, &reference, tolerances(plan).1, plan));
+        let reference = Reference::new(problem, Some(friction), plan)?.into();
+        runs.extend(set(Part::Friction).runs(&LOOPS, &reference, tolerances(plan).1));
     }
     Ok(runs)
 }
 
-/// Loops for study do not know bodies that float.
-fn runs_of<'a>(
-    loops: &[(&'static str, Variant)],
+/// Runs that belong together.
+struct Set<'a> {
+    part: Part,
     mesh: usize,
-    reference: &Rc<Reference>,
-    tolerance: f64,
     plan: &'a Plan,
-) -> Vec<LoopRun<'a>> {
-    let floats = reference.problem.floating().is_some();
-    let loops = loops
-        .iter()
-        .filter(|(_, variant)| !floats || *variant == Variant::Default);
-    loops
-        .map(|&(name, variant)| LoopRun {
-            plan,
-            mesh,
+}
+
+impl<'a> Set<'a> {
+    /// The loops on one problem; those for study do not know bodies that float.
+    fn runs(
+        &self,
+        loops: &[(&'static str, Variant)],
+        reference: &Rc<Reference>,
+        tolerance: f64,
+    ) -> Vec<LoopRun<'a>> {
+        let floats = reference.problem.floating().is_some();
+        let known = |variant| !floats || variant == Variant::Default;
+        let loops = loops.iter().filter(|(_, variant)| known(*variant));
+        let run = |&(name, variant): &(&'static str, Variant)| LoopRun {
+            part: self.part,
+            mesh: self.mesh,
+            plan: self.plan,
             reference: Rc::clone(reference),
             name,
             variant,
             tolerance,
-        })
-        .collect()
+        };
+        loops.map(run).collect()
+    }
 }
 
 /// Loosest and tightest.
@@ -175,6 +183,7 @@ impl LoopRun<'_> {
         let certificate = &outcome.verdict.certificate;
         let gap = certificate.bipotential_gap.max(0.0) / certificate.reaction_energy;
         Ok(StudiedRun {
+            part: self.part,
             mesh: self.mesh,
             name: self.name,
             friction: self.reference.friction,

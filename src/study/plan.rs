@@ -72,7 +72,11 @@ impl Plan {
     }
 
     /// Checks the ranges.
-    pub(super) fn validate(&self) -> Result<(), Error> {
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] naming the field and its range.
+    pub fn validate(&self) -> Result<(), Error> {
         let refuse = |place: &str, value: f64, accepted| Error::OutOfRange {
             place: format!("plan.{place}"),
             value,
@@ -122,7 +126,7 @@ impl Plan {
             });
         }
         if !self.meshes.is_empty() {
-            return self.from_files(scene);
+            return self.with_files(scene);
         }
         let generated = |body: &crate::scene::SceneBody| {
             matches!(
@@ -138,7 +142,7 @@ impl Plan {
         Ok(self.refine.iter().map(refined).collect())
     }
 
-    fn from_files(&self, scene: &Scene) -> Result<Vec<(String, Scene)>, Error> {
+    fn with_files(&self, scene: &Scene) -> Result<Vec<(String, Scene)>, Error> {
         let from_file = |mesh: &MeshSource| matches!(mesh, MeshSource::File { .. });
         let of_files: Vec<usize> = (0..scene.bodies.len())
             .filter(|&body| from_file(&scene.bodies[body].mesh))

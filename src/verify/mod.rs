@@ -10,6 +10,9 @@
 //! they fall with a mesh: the Hertz scenes take the mean over several loads per mesh. All meshes are
 //! generated here.
 
+mod cattaneo_mindlin;
+mod flat_punch;
+mod goodman;
 mod growing;
 mod hard;
 mod hertz_line;
@@ -42,13 +45,16 @@ struct Entry {
     measure: fn(quick: bool) -> Result<Vec<VerifiedQuantity>, Error>,
 }
 
-const GALLERY: [Entry; 10] = [
+const GALLERY: [Entry; 13] = [
     uniform_patch::ENTRY,
     two_blocks::ENTRY,
     ssnv128::ENTRY,
     hertz_line::ENTRY,
     two_parabolas::ENTRY,
     hertz_sphere::ENTRY,
+    flat_punch::ENTRY,
+    goodman::ENTRY,
+    cattaneo_mindlin::ENTRY,
     konter::ENTRY,
     incline::ENTRY,
     wedge::ENTRY,

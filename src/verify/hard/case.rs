@@ -24,7 +24,7 @@ pub(super) struct Case {
 /// A scene, or a problem that is condensed already.
 enum Posed {
     Scene(Box<Scene>),
-    Bare(ContactProblem),
+    Bare(Box<ContactProblem>),
 }
 
 /// A solved case.
@@ -36,11 +36,14 @@ pub(super) struct Answer {
     seconds: [f64; 2],
 }
 
+/// How far an answer is from a truth, relative.
+type Measure = Box<dyn Fn(&Answer) -> Result<f64, Error>>;
+
 /// Something that is known of an answer.
 struct Truth {
     what: &'static str,
     within: f64,
-    error: Box<dyn Fn(&Answer) -> Result<f64, Error>>,
+    error: Measure,
 }
 
 impl Case {
@@ -51,7 +54,7 @@ impl Case {
 
     /// A bare problem that has a certified answer.
     pub(super) fn bare(family: &'static str, name: String, problem: ContactProblem) -> Self {
-        Self::new(family, name, Posed::Bare(problem))
+        Self::new(family, name, Posed::Bare(Box::new(problem)))
     }
 
     fn new(family: &'static str, name: String, posed: Posed) -> Self {
@@ -174,7 +177,7 @@ impl Posed {
             }
             Self::Bare(problem) => {
                 let outcome = dpana::solve(problem, &Settings::default())?;
-                (problem.clone(), outcome, None)
+                (problem.as_ref().clone(), outcome, None)
             }
         };
         let spent = outcome.work.seconds;

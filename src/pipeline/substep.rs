@@ -1,0 +1,199 @@
+//! From one state of a load history to a later one, in one solve.
+
+use std::sync::Arc;
+
+use super::Setup;
+use crate::condensation::{ContactSurface, Superposition};
+use crate::dpana::{self, Outcome, Status};
+use crate::error::Error;
+use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
+use crate::scene::LoadHistory;
+
+/// Bodies on their way through a load history.
+pub(super) struct Course<'a> {
+    pub(super) setup: Setup,
+    pub(super) history: &'a LoadHistory,
+    under: Superposition,
+}
+
+/// What the next solve needs of a state.
+#[derive(Clone, Debug)]
+pub(super) struct State {
+    reaction: Vec<f64>,
+    motion: Vec<f64>,
+    /// Per contact unknown since the start of the history, in metre.
+    slip: Vec<f64>,
+    /// Relative displacement per contact in global axes, to obstacles where they are, in metre.
+    relative: Vec<[f64; 3]>,
+    /// Motion of the obstacle per contact pair, in metre.
+    obstacles: Vec<[f64; 3]>,
+    /// None at rest.
+    account: Option<Arc<Account>>,
+}
+
+/// A state that was solved for, and how it was reached.
+pub(super) struct Reached {
+    pub(super) at: f64,
+    pub(super) outcome: Outcome,
+    pub(super) displacements: Vec<Vec<f64>>,
+    pub(super) state: State,
+    pub(super) ledger: Ledger,
+}
+
+impl<'a> Course<'a> {
+    /// Bodies as they were condensed, at rest.
+    pub(super) fn new(mut setup: Setup, history: &'a LoadHistory) -> Result<Self, Error> {
+        let (condensed, driven) = (&mut setup.condensed, history.driven());
+        let under = condensed.superpose(&setup.bodies, &driven)?;
+        Ok(Self {
+            setup,
+            history,
+            under,
+        })
+    }
+
+    /// Puts the bodies under what acts at an instant, with the slip so far; returns the motion of
+    /// the obstacles.
+    fn act(&mut self, at: f64, slip: &[f64]) -> Result<Vec<[f64; 3]>, Error> {
+        let (factors, obstacles) = (self.history.factors(at), self.history.obstacles(at));
+        let condensed = &mut self.setup.condensed;
+        condensed.act(&self.under, &factors, &obstacles, slip)?;
+        Ok(obstacles)
+    }
+
+    /// A state that was solved for before.
+    pub(super) fn state(
+        &mut self,
+        at: f64,
+        reaction: Vec<f64>,
+        motion: Vec<f64>,
+        slip: Vec<f64>,
+        displacements: &[Vec<f64>],
+    ) -> Result<State, Error> {
+        let obstacles = self.act(at, &slip)?;
+        let account = Account::new(&self.setup.body_states(&reaction, displacements))?;
+        Ok(State {
+            relative: self.setup.relative(displacements, &obstacles),
+            account: Some(Arc::new(account)),
+            reaction,
+            motion,
+            slip,
+            obstacles,
+        })
+    }
+
+    /// Solves the state at an instant from an earlier one; the bodies stay under what acts then.
+    pub(super) fn solve(&mut self, from: &State, at: f64) -> Result<Reached, Error> {
+        let obstacles = self.act(at, &from.slip)?;
+        let setup = &self.setup;
+        let (condensed, settings) = (&setup.condensed, &setup.settings);
+        let problem = condensed.problem();
+        let outcome = match from.account {
+            None => dpana::solve(problem, settings)?,
+            Some(_) => dpana::solve_from(problem, settings, &from.reaction, &from.motion)?,
+        };
+        let displacement = &outcome.verdict.displacement;
+        let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
+        let account = Account::new(&setup.body_states(&outcome.reaction, &displacements))?;
+        let at_rest = match from.account {
+            None => Some(account.at_rest()),
+            Some(_) => None,
+        };
+        let before = at_rest.as_ref().or(from.account.as_deref());
+        let ledger = Ledger::new(
+            before.unwrap_or(&account),
+            &account,
+            &ContactStep {
+                problem,
+                reaction: [&from.reaction, &outcome.reaction],
+                displacement,
+                moved: &moved(condensed.surface(), &from.obstacles, &obstacles),
+            },
+        )?;
+        let state = State {
+            reaction: outcome.reaction.clone(),
+            motion: outcome.motion.clone(),
+            slip: condensed.slip(displacement, &from.slip),
+            relative: setup.relative(&displacements, &obstacles),
+            obstacles,
+            account: Some(Arc::new(account)),
+        };
+        Ok(Reached {
+            at,
+            outcome,
+            displacements,
+            state,
+            ledger,
+        })
+    }
+}
+
+impl State {
+    /// Before the first step.
+    pub(super) fn at_rest(setup: &Setup) -> Self {
+        let problem = setup.condensed.problem();
+        Self {
+            reaction: vec![0.0; problem.unknowns()],
+            motion: vec![0.0; problem.free_modes()],
+            slip: vec![0.0; problem.unknowns()],
+            relative: vec![[0.0; 3]; problem.contacts()],
+            obstacles: vec![[0.0; 3]; setup.pairs.len()],
+            account: None,
+        }
+    }
+
+    pub(super) fn slip(&self) -> &[f64] {
+        &self.slip
+    }
+
+    /// Elastic energy of all bodies, in joule.
+    pub(super) fn elastic(&self) -> f64 {
+        self.account
+            .as_ref()
+            .map_or(0.0, |account| account.elastic())
+    }
+
+    /// Where the slip from here to a later state counts from, per contact in global axes, in metre.
+    pub(super) fn origins(&self, setup: &Setup, later: &Self) -> Vec<[f64; 3]> {
+        let moved = setup.condensed.surface().obstacle_motions(&later.obstacles);
+        let contacts = self.relative.iter().zip(moved);
+        contacts
+            .map(|(u, d)| [0, 1, 2].map(|axis| u[axis] + d[axis]))
+            .collect()
+    }
+}
+
+impl Reached {
+    pub(super) fn is_certified(&self) -> bool {
+        self.outcome.status == Status::Certified
+    }
+}
+
+impl Setup {
+    /// Displacement of each contact relative to its other side where that is now, in metre.
+    fn relative(&self, displacements: &[Vec<f64>], obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
+        let dimension = self.bodies.first().map_or(3, |body| body.mesh.dimension);
+        let contacts = self.condensed.surface().nodes.iter();
+        contacts
+            .zip(self.condensed.surface().obstacle_motions(obstacles))
+            .map(|(contact, d)| {
+                let u = relative_displacement(contact, displacements, dimension);
+                [0, 1, 2].map(|axis| u[axis] - d[axis])
+            })
+            .collect()
+    }
+}
+
+/// Motion of the other side from one state to the next, in metre per contact unknown.
+fn moved(surface: &ContactSurface, before: &[[f64; 3]], after: &[[f64; 3]]) -> Vec<f64> {
+    let motions = surface.obstacle_motions(before).into_iter();
+    let motions = motions.zip(surface.obstacle_motions(after));
+    let contacts = surface.nodes.iter();
+    contacts
+        .zip(motions)
+        .flat_map(|(contact, (before, after))| {
+            let rows = contact.frame[..=contact.tangents].iter();
+            rows.map(move |row| (0..3).map(|k| row[k] * (after[k] - before[k])).sum())
+        })
+        .collect()
+}

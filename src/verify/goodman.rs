@@ -1,0 +1,95 @@
+//! Goodman's indentation: pressed straight on, the middle sticks and the ring around it slips.
+
+use super::Entry;
+use super::hertz_line::{half_width, parabola};
+use super::ladder::{Ladder, Measured};
+use super::scenes::{body, hold, on, plane};
+use crate::closed_forms::{Elastic, dundurs_beta, friction_of_stick_line};
+use crate::dpana::Status;
+use crate::error::Error;
+use crate::pipeline::solve_steps;
+use crate::report::{Criterion, Report, VerifiedQuantity};
+use crate::scene::{Scene, SceneSteps};
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "Goodman, a parabola with friction on a rigid plane",
+    source: "Spence 1975, Johnson 1985, §5.4 (E8)",
+    floor: "the closed form neglects what friction does to the pressure: about μβ = 1.1 %",
+    measure,
+};
+
+/// β = 0.12/1.12: little coupling, which the closed form neglects in part.
+const MATERIAL: Elastic = Elastic {
+    young: 210e3,
+    poisson: 0.44,
+};
+
+/// c/a that the coefficient of friction is chosen for.
+const STICK: f64 = 0.7;
+
+/// R of the parabola and how far its top goes down in the end, in mm.
+const RADIUS: f64 = 1000.0;
+const LOWERED: f64 = 0.004;
+
+/// The last half of the path is looked at: the ends of both zones pass many nodes in it.
+const FROM: f64 = 0.5;
+
+/// Right half of the body, lowered in `count` steps.
+fn scene(cells: f64, friction: f64, count: u32) -> Result<Scene, Error> {
+    let half = hold(
+        body("half", parabola(cells, RADIUS)?, MATERIAL),
+        "left",
+        0,
+        0.0,
+    );
+    let half = hold(half, "top", 1, -LOWERED);
+    let mut scene = on(plane(&[0.0, 1.0]), half, "bottom", friction);
+    let factors = vec![vec![0.0, 0.0], vec![1.0, 1.0]];
+    scene.steps = Some(SceneSteps {
+        at: (1..=count)
+            .map(|k| f64::from(k) / f64::from(count))
+            .collect(),
+        factors: [("bodies[0].supports[1]".to_owned(), factors)].into(),
+        ..SceneSteps::default()
+    });
+    Ok(scene)
+}
+
+/// Half-width of the part that sticks over that of the contact.
+fn stick_ratio(report: &Report) -> f64 {
+    (report.totals.contact_area - report.totals.slip_area) / half_width(report)
+}
+
+fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
+    let beta = dundurs_beta(MATERIAL, None)?;
+    let friction = friction_of_stick_line(beta, STICK)?;
+    let mut ladder = Ladder::new("c/a, mean over the path");
+    let meshes: &[f64] = if quick {
+        &[10.0, 20.0]
+    } else {
+        &[10.0, 20.0, 40.0]
+    };
+    for &cells in meshes {
+        let mut ratios = Vec::new();
+        let count = 4 * cells as u32;
+        let last = solve_steps(&scene(cells, friction, count)?, None, |solution| {
+            if solution.step().is_some_and(|step| step.at() >= FROM) {
+                ratios.push(stick_ratio(&solution.report()?));
+            }
+            Ok(())
+        })?;
+        let settled = last.status() == Status::Certified;
+        let mean = ratios.iter().sum::<f64>() / ratios.len() as f64;
+        let found = Measured::number(mean, STICK);
+        ladder.climb(
+            &format!("{cells} quad4 per mm"),
+            1.0 / cells,
+            settled,
+            found,
+        );
+    }
+    // The neglected coupling, and half a cell at the end of the zone that sticks.
+    let finest = meshes.last().copied().unwrap_or(1.0);
+    let within = friction * beta + 0.5 / (finest * STICK);
+    Ok(vec![ladder.judge(Criterion::FinestMesh { within })])
+}

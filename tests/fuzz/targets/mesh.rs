@@ -1,0 +1,74 @@
+//! Bytes to the reader of Gmsh files, and a scene around every mesh that it accepts.
+#![no_main]
+
+use dpana::body::{Group, Mesh, gmsh};
+use dpana::scene::{
+    MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
+    SceneObstacle, SceneSupport, SceneSurface,
+};
+use dpana_fuzz::attempt;
+use libfuzzer_sys::fuzz_target;
+
+/// Most nodes of a mesh that a scene is built around.
+const NODES: usize = 400;
+
+fuzz_target!(|bytes: &[u8]| {
+    if let Ok(mesh) = gmsh::parse_bytes(bytes, "part.msh") {
+        if mesh.nodes.len() <= NODES {
+            let _ = attempt(scene(mesh, bytes.len()));
+        }
+    }
+});
+
+/// The first group of facets touches a plane or the second, the last group is held.
+fn scene(mesh: Mesh, choice: usize) -> Scene {
+    let dimension = mesh.dimension;
+    let of_facets =
+        |(name, group): (&String, &Group)| matches!(group, Group::Facets(_)).then(|| name.clone());
+    let facets: Vec<String> = mesh.groups.iter().filter_map(of_facets).collect();
+    let any = |group: Option<&String>| group.cloned().unwrap_or_default();
+    let axes = |values: [f64; 3]| values[..dimension].to_vec();
+    let up = if dimension == 2 {
+        [0.0, 1.0, 0.0]
+    } else {
+        [0.0, 0.0, 1.0]
+    };
+    let against = choice % 3 == 0;
+    let hold = SceneSupport::Group {
+        group: any(mesh.groups.keys().last()),
+        displacement: axes([0.0, -0.01, -0.01]).into_iter().map(Some).collect(),
+    };
+    let load = SceneLoad::Pressure {
+        pressure: 1.0,
+        group: any(facets.last()),
+    };
+    let obstacle = SceneObstacle::Plane {
+        point: axes([0.0; 3]),
+        normal: axes(up),
+    };
+    Scene {
+        bodies: vec![SceneBody {
+            name: "part".into(),
+            model: (dimension == 2).then_some(SceneModel::PlaneStrain),
+            materials: vec![SceneMaterial {
+                group: None,
+                young: 1000.0,
+                poisson: 0.3,
+            }],
+            supports: if choice % 2 == 0 { vec![hold] } else { vec![] },
+            loads: vec![load],
+            mesh: MeshSource::Given(mesh),
+        }],
+        contacts: vec![SceneContact {
+            group: any(facets.first()),
+            body: None,
+            obstacle: (!against).then_some(obstacle),
+            against: against.then(|| SceneSurface {
+                body: None,
+                group: any(facets.get(1)),
+            }),
+            friction: 0.3,
+        }],
+        ..Scene::default()
+    }
+}
