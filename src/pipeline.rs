@@ -13,11 +13,11 @@ use std::time::Instant;
 
 use crate::body::{self, Body};
 use crate::condensation::{Condensed, ContactPair};
-use crate::dpana::{Outcome, Settings, Status};
+use crate::dpana::{self, Outcome, Settings, Status};
 use crate::error::Error;
 use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
-use crate::report::{Report, ReportParts, StageWork, replace_file};
+use crate::report::{Report, ReportParts, StageWork, Trust, replace_file};
 use crate::scene::{Mechanics, Scene};
 
 pub use halving::Halving;
@@ -246,6 +246,24 @@ impl Solution {
         } else {
             0.0
         }
+    }
+
+    /// Solves the contacts of a certified solution again from this many other starts, and estimates
+    /// how much friction the alternation takes; none for a solution without certificate.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn trust(&self, starts: usize) -> Result<Option<Trust>, Error> {
+        if self.status() != Status::Certified {
+            return Ok(None);
+        }
+        let problem = self.setup.condensed.problem();
+        let settings = &self.setup.settings;
+        let others = dpana::other_starts(problem, settings, &self.outcome, starts)?;
+        let contraction = dpana::contraction(problem, &self.outcome);
+        let normals = &problem.offsets()[..problem.contacts()];
+        Ok(Some(Trust::new(contraction, &others, normals)))
     }
 
     /// The load step that led here; none where the scene has no steps.

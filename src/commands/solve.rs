@@ -49,6 +49,10 @@ pub(crate) struct Solve {
     /// of earlier steps; where there are none they begin with the first step that is solved.
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
+    /// Solve again from N other starts and say whether they end in the same state, and how much
+    /// friction the alternation takes (of the last state, where the scene has load steps).
+    #[arg(long, value_name = "N")]
+    starts: Option<usize>,
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
@@ -79,6 +83,9 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     drop(progress);
     let solution = solution?;
     let mut report = solution.report()?;
+    if let Some(starts) = arguments.starts {
+        report.trust = solution.trust(starts)?;
+    }
     if arguments.quality {
         report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
     }

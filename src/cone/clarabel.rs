@@ -82,7 +82,8 @@ impl ConeProgram {
         })
     }
 
-    /// Solves for `linear` (q) and, with discs, `bounds` (b > 0); `None` if Clarabel refuses the numbers.
+    /// Solves for `linear` (q) and, with discs, `bounds` (b > 0); `None` if Clarabel refuses the numbers or
+    /// the minimiser has none.
     ///
     /// An inexact answer is an answer: whoever calls judges it by the laws of contact.
     pub(crate) fn solve(
@@ -106,15 +107,11 @@ impl ConeProgram {
         }
         self.solver.solve();
         let solution = &self.solver.solution;
-        if solution.x.iter().any(|x| !x.is_finite()) {
+        let scaled = solution.x.iter().zip(&self.scale);
+        let x: Vec<f64> = scaled.map(|(x, d)| x * d * sigma).collect();
+        if x.iter().any(|x| !x.is_finite()) {
             return None;
         }
-        let x = solution
-            .x
-            .iter()
-            .zip(&self.scale)
-            .map(|(x, d)| x * d * sigma)
-            .collect();
         Some(ConeSolution {
             x,
             iterations: solution.iterations as usize,

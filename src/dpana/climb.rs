@@ -1,12 +1,13 @@
-//! Where the sweeps do not settle: friction raised from nothing to what it is.
+//! Where the sweeps do not settle: friction raised from nothing, or lowered from rough, to what it is.
 //!
 //! ```text
-//! (D6)  t(λ): the state for λ μ,  from λ = 0 to λ = 1,  each by Newton steps (D4) from the one before
+//! (D9)  t(λ): the state for λ μ,  λ: 0 → 1, or 1000 → 1,  each by Newton steps (D4) from the one before
 //! ```
 //!
 //! From state to state few contacts change what they do, and Newton steps follow where from afar
-//! they would cycle; a state without friction needs one normal program. The way ends where the
-//! states turn back (more than one state for the same friction): sweeping then goes on.
+//! they would cycle. Without friction a normal program finds the first state; rough contacts slip
+//! nowhere. A way ends where its states turn back (more than one state for the same friction): sweeping then
+//! goes on.
 
 use std::time::Instant;
 
@@ -24,7 +25,10 @@ use crate::kkt::Judge;
 /// Sweeps that get their chance before.
 const SWEEPS: usize = 2;
 
-/// First and least step of λ.
+/// Friction of rough contacts, as a multiple.
+const ROUGH: f64 = 1e3;
+
+/// First and least step, as parts of the way.
 const STRIDE: (f64, f64) = (0.125, 1e-3);
 
 /// Newton steps to a state on the way at most, and how few allow a longer stride.
@@ -37,16 +41,22 @@ const STEPS_IN_ALL: usize = 200;
 const CLOSE: f64 = 1e-8;
 
 impl Run<'_> {
-    /// (D6), once; then Newton steps to the last digits.
+    /// (D9), once; then Newton steps to the last digits.
     pub(super) fn climb_in_friction(&mut self) {
         let given_up = self.shortfall == Some(Shortfall::ConeSolver);
         if self.is_solved() || (self.work.sweeps != SWEEPS && !given_up) {
             return;
         }
         let start = Instant::now();
-        let at_the_top = self.without_friction().and_then(|t| self.climb(t));
+        let up = self.without_friction();
+        let found = up
+            .and_then(|reaction| self.follow(reaction, |way| way))
+            .or_else(|| {
+                let stuck = stuck(self.problem)?;
+                self.follow(stuck, |way| ROUGH.powf(1.0 - way))
+            });
         self.work.seconds.finish += start.elapsed().as_secs_f64();
-        if let Some(reaction) = at_the_top {
+        if let Some(reaction) = found {
             self.state.reaction = reaction;
             self.judge();
             self.newton_finish();
@@ -71,28 +81,33 @@ impl Run<'_> {
         Some(reaction)
     }
 
-    /// The state for the problem's own friction; none if the way ends before.
-    fn climb(&mut self, frictionless: Vec<f64>) -> Option<Vec<f64>> {
+    /// The state for the problem's own friction, from that at the start of a way; none if the way ends
+    /// before. `part` is λ at a part of the way.
+    fn follow(&mut self, start: Vec<f64>, part: impl Fn(f64) -> f64) -> Option<Vec<f64>> {
         let most = self.work.newton_steps + STEPS_IN_ALL;
-        let (mut reaction, mut part, mut stride) = (frictionless, 0.0, STRIDE.0);
-        while part < 1.0 {
-            if stride < STRIDE.1 || self.work.newton_steps > most {
-                return None;
-            }
-            let next = f64::min(part + stride, 1.0);
+        let (mut reaction, mut way, mut stride) = (start, 0.0, 0.0);
+        loop {
             self.work.friction_parts += 1;
-            let (near, steps) = state_at(self.problem, next, &reaction)?;
+            let next = f64::min(way + stride, 1.0);
+            let (near, steps) = state_at(self.problem, part(next), &reaction)?;
             self.record.newton_steps += steps;
             self.work.newton_steps += steps;
             match near {
+                Some(state) if next == 1.0 => return Some(state),
                 Some(state) => {
-                    (reaction, part) = (state, next);
-                    stride *= if steps <= STEPS.1 { 2.0 } else { 1.0 };
+                    (reaction, way) = (state, next);
+                    stride = match stride {
+                        0.0 => STRIDE.0,
+                        _ if steps <= STEPS.1 => 2.0 * stride,
+                        _ => stride,
+                    };
                 }
                 None => stride *= 0.5,
             }
+            if stride < STRIDE.1 || self.work.newton_steps > most {
+                return None;
+            }
         }
-        Some(reaction)
     }
 }
 
@@ -112,6 +127,17 @@ fn pressed(problem: &ContactProblem) -> Option<Vec<f64>> {
         reaction[n] = *t;
     }
     Some(reaction)
+}
+
+/// What closes every gap and undoes every slip, pulling where need be; none without a stiffness.
+pub(super) fn stuck(problem: &ContactProblem) -> Option<Vec<f64>> {
+    let free = problem.free_displacement();
+    let mut back = Col::from_fn(free.len(), |k| -free[k]);
+    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
+        back[n] += gap;
+    }
+    let reaction = problem.operator().stiffness()? * back;
+    Some(reaction.iter().copied().collect())
 }
 
 /// The state for this part of friction if Newton steps lead there, and how many were taken; none

@@ -16,6 +16,7 @@ use faer::linalg::solvers::{Llt, Solve};
 use faer::{Col, Mat, Side};
 
 use super::Outcome;
+use super::condition::times;
 use crate::condensation::ContactProblem;
 use crate::kkt::ContactStatus;
 
@@ -186,7 +187,7 @@ impl<'a> Disturbance<'a> {
         }
         let g = self.problem.compliance();
         if let Some(tangential) = &self.tangential {
-            let moved = g * &reaction;
+            let moved = times(g, &reaction);
             let found = tangential.solve(Col::from_fn(self.directions.len(), |k| {
                 let direction = &self.directions[k];
                 let along = direction.along.iter().enumerate();
@@ -200,7 +201,7 @@ impl<'a> Disturbance<'a> {
                 }
             }
         }
-        let moved = g * &friction;
+        let moved = times(g, &friction);
         let right = Col::from_fn(self.pressed.len(), |k| -moved[self.pressed[k]]);
         self.normal.solve(&right)
     }

@@ -67,6 +67,12 @@ pub enum Shortfall {
     },
     /// The cone solver gave up on a half-step's program.
     ConeSolver,
+    /// Sweeps led to no better state, and the compliance hardly tells contacts apart: a residual of
+    /// one rounding leaves reactions wrong by more than the tolerance.
+    IllConditioned {
+        /// Condition of the compliance, see [`Outcome::condition`].
+        condition: f64,
+    },
     /// The residual is what the rounding of the reaction itself may leave: the tolerance asks for
     /// more digits than the problem has.
     RoundOff {
@@ -113,7 +119,7 @@ pub struct Work {
     pub friction_program_contacts: usize,
     /// Newton steps.
     pub newton_steps: usize,
-    /// Coefficients of friction that were passed through on the way up to the problem's own (D6).
+    /// Coefficients of friction that were passed through on the way up to the problem's own (D9).
     pub friction_parts: usize,
     /// Seconds of prediction, half-steps, finish, judge.
     pub seconds: Seconds,

@@ -4,7 +4,7 @@
 //! predict    which contacts are open, pressed, stuck
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
 //! finish     semismooth Newton on the laws, kept only if the judge's residual falls
-//! climb      if that failed twice: Newton again, friction raised from nothing to what it is
+//! climb      if that failed twice: Newton again, friction raised from nothing (or lowered from rough)
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!

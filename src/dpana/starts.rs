@@ -3,8 +3,7 @@
 //! With much friction several states can satisfy all laws for the same load. Nothing short of
 //! trying tells how many, and trying proves nothing but what it finds: every state given here is certified.
 
-use faer::{Col, Mat};
-
+use super::climb::stuck;
 use super::{Outcome, Settings, Status, solve_from};
 use crate::condensation::ContactProblem;
 use crate::error::Error;
@@ -89,10 +88,12 @@ fn same(problem: &ContactProblem, one: &Outcome, other: &Outcome) -> bool {
 
 /// The start of this number.
 fn start(problem: &ContactProblem, found: &[f64], number: usize, random: &mut Random) -> Vec<f64> {
-    if let (4, Some(stiffness)) = (number, problem.operator().stiffness()) {
-        return stuck(problem, stiffness);
+    let stuck = stuck(problem).unwrap_or_else(|| vec![0.0; found.len()]);
+    if number == 4 {
+        return stuck;
     }
-    let largest = found.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
+    let sizes = found.iter().chain(&stuck).map(|t| t.abs());
+    let largest = sizes.fold(0.0, f64::max);
     let mut start = vec![0.0; found.len()];
     for (contact, ends) in problem.offsets().windows(2).enumerate() {
         let (n, tangents) = (ends[0], ends[0] + 1..ends[1]);
@@ -116,16 +117,6 @@ fn start(problem: &ContactProblem, found: &[f64], number: usize, random: &mut Ra
         }
     }
     start
-}
-
-/// What closes every gap and undoes every slip, pulling where need be.
-fn stuck(problem: &ContactProblem, stiffness: &Mat<f64>) -> Vec<f64> {
-    let free = problem.free_displacement();
-    let mut back = Col::from_fn(free.len(), |k| -free[k]);
-    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
-        back[n] += gap;
-    }
-    (stiffness * back).iter().copied().collect()
 }
 
 /// Numbers that look random, by xorshift (Marsaglia, J. Stat. Softw. 8 (2003) no. 14).

@@ -112,6 +112,8 @@ impl<'a> Run<'a> {
         self.state.reaction = reaction.to_vec();
         self.state.motion = motion.to_vec();
         self.judge();
+        // Rest may be a state too, but it is not the one that is asked for.
+        self.best = self.state.clone();
         if self.settings.variant == Variant::Default {
             self.newton_steps(displacement);
         }
@@ -327,11 +329,19 @@ impl<'a> Run<'a> {
         } else {
             Status::NotConverged
         };
-        let swept = Shortfall::SweepLimit;
-        let condition = self.finish.as_ref().and_then(|_| condition(self.problem));
+        let stalled = matches!(self.shortfall, Some(Shortfall::Stalled { .. }));
+        let asked = stalled || self.finish.is_some();
+        let condition = asked.then(|| condition(self.problem));
+        let uncertain = self.settings.tolerance / f64::EPSILON;
+        let shortfall = match (self.shortfall, condition) {
+            (Some(Shortfall::Stalled { .. }), Some(condition)) if condition > uncertain => {
+                Shortfall::IllConditioned { condition }
+            }
+            (known, _) => known.unwrap_or(Shortfall::SweepLimit),
+        };
         Outcome {
             status,
-            shortfall: (status == Status::NotConverged).then(|| self.shortfall.unwrap_or(swept)),
+            shortfall: (status == Status::NotConverged).then_some(shortfall),
             condition,
             reaction: self.best.reaction,
             motion: self.best.motion,

@@ -60,16 +60,15 @@ mod tests {
 
     #[test]
     fn what_plain_sums_lose_is_kept() {
-        // û + G t + R α = 1 − 1e16 + 1e16 = 1; plain sums give 0.
-        let operator = Operator::from_compliance(mat![[1e16, 0.0], [0.0, 1.0]]).unwrap();
-        let (zero, free) = (vec![0.0; 2], vec![1.0, 0.0]);
-        let problem = ContactProblem::new(&[0, 0], zero.clone(), zero, free, operator).unwrap();
-        let floating = Floating::new(mat![[1e16], [0.0]], vec![0.0]).unwrap();
+        // û + G t + R α = 1 − 1e16 + 1e16 + ½ R, with R = (1, 0); plain sums lose the 1.
+        let operator = Operator::from_compliance(mat![[1e16, 1e16], [1e16, 1e16]]).unwrap();
+        let zero = vec![0.0; 2];
+        let problem =
+            ContactProblem::new(&[0, 0], zero.clone(), zero, vec![1.0; 2], operator).unwrap();
+        let floating = Floating::new(mat![[1.0], [0.0]], vec![0.0]).unwrap();
         let problem = problem.float(floating).unwrap();
-        assert_eq!(
-            deep_displacement(&problem, &[-1.0, 0.0], &[1.0]),
-            [1.0, 0.0]
-        );
+        let found = deep_displacement(&problem, &[-1.0, 1.0], &[0.5]);
+        assert_eq!(found, [1.5, 1.0]);
     }
 
     #[test]

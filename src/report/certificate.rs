@@ -31,6 +31,10 @@ pub struct Certificate {
     pub bipotential_gap: f64,
     /// Energy of the reaction, in joule: what the bipotential gap is compared with.
     pub reaction_energy: f64,
+    /// Condition of the compliance, an estimate from below: a residual leaves single reactions wrong by
+    /// up to as many times it. `null` where forces cannot be told apart; absent where it was not needed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub condition: Option<f64>,
     /// Largest difference between the displacement of a contact in the recovered bodies and
     /// in the condensed problem, in metre.
     pub recovered: Worst,
@@ -113,6 +117,7 @@ impl Certificate {
             dissipation_defect: measured.dissipation_defect.into(),
             bipotential_gap: measured.bipotential_gap,
             reaction_energy: measured.reaction_energy,
+            condition: parts.outcome.condition,
             recovered: parts.departure.into(),
             bodies: bodies
                 .map(|(body, balance)| Balance::new(body, balance))

@@ -17,12 +17,14 @@ mod notes;
 mod page;
 mod plot;
 mod quality;
+mod shortfall;
 mod step;
 mod study;
 mod study_figures;
 mod summary;
 mod table;
 mod totals;
+mod trust;
 mod verification;
 pub mod vtu;
 mod work;
@@ -34,16 +36,18 @@ pub use contacts::{Contact, ContactState};
 pub use failure::Failure;
 pub use figure::{Axis, Curve, Figure, Point};
 pub use file::replace_file;
-pub use hard::{HardCase, HardCases};
+pub use hard::{HardCase, HardCases, HardVerdict};
 pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
 pub use motion::Motion;
 pub(crate) use motion::motions;
 pub use plot::plot;
 pub use quality::Quality;
+pub use shortfall::{Reason, Shortfall};
 pub use step::{Halving, Ledger, Step};
 pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
 pub use totals::{Exchange, PairTotals, Totals};
+pub use trust::{Trust, TrustedState};
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
@@ -62,6 +66,9 @@ pub struct Report {
     pub units: String,
     /// How the solve ended.
     pub status: Status,
+    /// Without a certificate: why (`reason`), and what to do (`advice`).
+    #[serde(flatten)]
+    pub shortfall: Option<Shortfall>,
     /// With `no_equilibrium`: what moves, and what is missing to hold it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub failure: Option<Failure>,
@@ -72,6 +79,9 @@ pub struct Report {
     pub size: Size,
     /// Every law and the balance of every body, measured.
     pub certificate: Certificate,
+    /// What other starts led to, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub trust: Option<Trust>,
     /// Totals over the contact surface, and pair by pair.
     pub totals: Totals,
     /// How far pressure and stress can be trusted by eye.
@@ -196,10 +206,12 @@ impl Report {
             title: parts.title.to_owned(),
             units: parts.units.to_owned(),
             status: parts.outcome.status.into(),
+            shortfall: Shortfall::of(parts.outcome),
             failure: Failure::new(parts),
             step: parts.step.clone(),
             size: Size::new(parts),
             certificate: Certificate::new(parts),
+            trust: None,
             totals: Totals::new(parts, &exchanges, &forces),
             quality: Quality::new(parts, &contacts),
             work: Work::new(parts),

@@ -6,6 +6,9 @@ use crate::kkt::ContactStatus;
 /// How many nodes a note names before it only counts them.
 const NAMED: usize = 5;
 
+/// Round-off times condition from which a note says so, as a part of the reaction.
+const UNCERTAIN: f64 = 1e-8;
+
 /// Notes on the contact surface, after those that the scene's own stages made.
 pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
     let mut notes = parts.notes.to_vec();
@@ -29,7 +32,27 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
              it, the true contact may go on beyond"
         ));
     }
+    notes.extend(parts.outcome.condition.and_then(uncertain));
     notes
+}
+
+/// What a large condition of the compliance does to single reactions.
+fn uncertain(condition: f64) -> Option<String> {
+    if condition.is_infinite() {
+        return Some(
+            "forces of single contacts are not unique, as the bodies cannot tell some contacts \
+             apart; their sums and all displacements are"
+                .to_owned(),
+        );
+    }
+    let digits = condition * f64::EPSILON;
+    (digits > UNCERTAIN).then(|| {
+        format!(
+            "ill-conditioned ({condition:.0e}): forces of single contacts are certain to a part in \
+             {:.0e} of the largest, sums and displacements to more",
+            digits.recip()
+        )
+    })
 }
 
 /// Nodes in words, body by body; the body's name only says something beside another body.
@@ -61,6 +84,14 @@ fn named(nodes: &[usize]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_the_condition_takes_of_the_digits_is_said() {
+        assert_eq!(uncertain(1e6), None);
+        // 2.2e-16 · 1e10 = 2.2e-6: one part in 4.5e5.
+        assert!(uncertain(1e10).is_some_and(|note| note.contains("a part in 5e5")));
+        assert!(uncertain(f64::INFINITY).is_some_and(|note| note.contains("not unique")));
+    }
 
     #[test]
     fn a_few_nodes_are_named_and_many_are_counted() {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Balance, Defect, Failure, Report, Status};
+use super::{Balance, Defect, Failure, Report, Shortfall, Status};
 
 /// How many contact pairs the summary lists before it only counts them.
 const LISTED: usize = 8;
@@ -19,7 +19,8 @@ pub(super) fn summary(report: &Report) -> String {
                 .and_then(|()| energy(&mut text, report))
                 .and_then(|()| quality(&mut text, report))
                 .and_then(|()| pairs(&mut text, report))
-                .and_then(|()| violations(&mut text, report)),
+                .and_then(|()| violations(&mut text, report))
+                .and_then(|()| trust(&mut text, report)),
         })
         .and_then(|()| work(&mut text, report));
     for note in &report.notes {
@@ -47,6 +48,10 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         )?;
     }
     writeln!(text, "status          {status}")?;
+    if let Some(Shortfall { reason, advice }) = &report.shortfall {
+        writeln!(text, "reason          {}", reason.words())?;
+        writeln!(text, "advice          {advice}")?;
+    }
     if report.failure.is_none() {
         let residual = size(report.certificate.natural_map);
         writeln!(
@@ -249,6 +254,14 @@ fn violation(
     writeln!(text, "{}", line.trim_end())
 }
 
+/// What other starts led to, and how much friction the alternation takes.
+fn trust(text: &mut String, report: &Report) -> std::fmt::Result {
+    match &report.trust {
+        Some(trust) => writeln!(text, "trust           {}", trust.words),
+        None => Ok(()),
+    }
+}
+
 fn work(text: &mut String, report: &Report) -> std::fmt::Result {
     let work = &report.work;
     writeln!(
@@ -282,7 +295,7 @@ fn vector(components: &[f64]) -> String {
 }
 
 /// Two digits: the size of what should be zero.
-fn size(value: f64) -> String {
+pub(super) fn size(value: f64) -> String {
     if value == 0.0 {
         "0".into()
     } else {

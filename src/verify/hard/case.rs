@@ -7,7 +7,7 @@ use crate::condensation::ContactProblem;
 use crate::dpana::{self, Outcome, Settings, Status};
 use crate::error::Error;
 use crate::pipeline::{self, Solution};
-use crate::report::HardCase;
+use crate::report::{HardCase, HardVerdict};
 use crate::scene::Scene;
 
 /// A case of the battery.
@@ -18,6 +18,7 @@ pub(super) struct Case {
     posed: Posed,
     expected: Status,
     truths: Vec<Truth>,
+    beyond: Option<&'static str>,
 }
 
 /// A scene, or a problem that is condensed already.
@@ -35,14 +36,14 @@ pub(super) struct Answer {
     seconds: [f64; 2],
 }
 
-/// How far an answer is from something that is known of it.
-type Miss = Box<dyn Fn(&Answer) -> Result<f64, Error>>;
+/// How far an answer is from a truth, relative.
+type Measure = Box<dyn Fn(&Answer) -> Result<f64, Error>>;
 
 /// Something that is known of an answer.
 struct Truth {
     what: &'static str,
     within: f64,
-    error: Miss,
+    error: Measure,
 }
 
 impl Case {
@@ -64,6 +65,7 @@ impl Case {
             posed,
             expected: Status::Certified,
             truths: Vec::new(),
+            beyond: None,
         }
     }
 
@@ -73,6 +75,14 @@ impl Case {
 
     pub(super) fn ends(self, expected: Status) -> Self {
         Self { expected, ..self }
+    }
+
+    /// Says why this case is beyond the method: it is known not to be certified, and to say so.
+    pub(super) fn beyond(self, why: &'static str) -> Self {
+        Self {
+            beyond: Some(why),
+            ..self
+        }
     }
 
     /// Adds a truth: `error`, relative, is at most `within`.
@@ -123,17 +133,23 @@ impl Case {
         let outcome = &answer.outcome;
         let mut missed = Vec::new();
         if outcome.status != self.expected {
-            missed.push(format!(
-                "ends {:?}: {:?}",
-                outcome.status, outcome.shortfall
-            ));
+            let reason = outcome.shortfall;
+            missed.push(format!("ends {:?}, {reason:?}", outcome.status));
         }
-        for truth in &self.truths {
+        // A state without certificate claims nothing that could be wrong.
+        let claims = outcome.status != Status::NotConverged;
+        for truth in self.truths.iter().filter(|_| claims) {
             let error = (truth.error)(&answer)?;
             if error.is_nan() || error > truth.within {
                 missed.push(format!("{} off by {error:.1e}", truth.what));
             }
         }
+        let verdict = match (self.beyond, outcome.status) {
+            (Some(why), Status::NotConverged) => HardVerdict::Beyond(why),
+            (Some(_), _) => HardVerdict::Fail(vec!["is no longer beyond the method".to_owned()]),
+            (None, _) if missed.is_empty() => HardVerdict::Pass,
+            (None, _) => HardVerdict::Fail(missed),
+        };
         Ok(HardCase {
             family: self.family,
             name: self.name.clone(),
@@ -145,8 +161,7 @@ impl Case {
             newton_steps: outcome.work.newton_steps,
             contact_seconds: answer.seconds[0],
             seconds: answer.seconds[1],
-            passed: missed.is_empty(),
-            missed,
+            verdict,
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Gaps of nothing and of a millionth of a millionth of the size, contact without force, no contact.
 
-use super::case::Case;
+use super::case::{Case, apart};
 use super::friction::{dragged, elastic};
 use crate::body::{CellKind, graded, rectangle};
 use crate::error::Error;
@@ -44,9 +44,23 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
         for gap in [0.0, 1e-12, -1e-12] {
             let name = format!("{gap:e} of the size, mu {friction}");
             let case = Case::scene("gap", name, parted(gap * SIDE, friction)?);
-            // The gap is 4e-14 m beside displacements of 2.8e-5 m: 2e-9 of them, half of it where it acts.
-            let twin = parted(0.0, friction)?;
-            cases.push(case.like("reactions without gap", 2e-9, 1.0, twin));
+            let twin = || parted(0.0, friction);
+            // A node next to the held corner takes the gap as a strain over one cell, E · gap = 5.2e-3 N
+            // per metre, beside 6.25e4 N of pressure on its cell: 8.3e-8.
+            let case = case.like("reactions without gap", 8.3e-8, 1.0, twin()?);
+            // The gap, 4e-14 m, beside displacements of 2.8e-5 m, is 1.4e-9; its strain moves others by no
+            // more than it. Without friction only normal displacements are known, which are nothing but the gap.
+            cases.push(match friction > 0.0 {
+                false => case,
+                true => {
+                    let twin = twin()?;
+                    case.knows("displacements without gap", 3e-9, move |answer| {
+                        let without = crate::pipeline::solve(&twin)?;
+                        let expected = &without.outcome().verdict.displacement;
+                        Ok(apart(&answer.outcome.verdict.displacement, expected))
+                    })
+                }
+            });
         }
         // Rigid motion to the plane and not further: the reactions that round-off of 1e-16 m calls
         // forth, beside E times the motion.

@@ -1,0 +1,104 @@
+//! Why an answer has no certificate, and what to do, as it is reported.
+
+use serde::Serialize;
+
+use super::summary::size;
+use crate::dpana::{self, Outcome, Status};
+
+/// Why a solve ended as it did, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Shortfall {
+    /// Why, by a name that stays.
+    pub reason: Reason,
+    /// What to do.
+    pub advice: String,
+}
+
+/// Every way to end without a certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Reason {
+    /// No admissible contact forces hold the bodies.
+    NoEquilibrium,
+    /// The sweeps that the settings allow ran out.
+    SweepLimit,
+    /// Many sweeps led to no better state.
+    Stalled,
+    /// The cone solver gave up.
+    ConeSolver,
+    /// The bodies hardly tell the contacts apart.
+    IllConditioned,
+    /// The tolerance asks for more digits than the problem has.
+    RoundOff,
+}
+
+impl Reason {
+    /// As the summary says it.
+    pub(super) const fn words(self) -> &'static str {
+        match self {
+            Self::NoEquilibrium => "nothing holds the bodies",
+            Self::SweepLimit => "sweeps ran out (max_sweeps)",
+            Self::Stalled => "many sweeps led to no better state",
+            Self::ConeSolver => "the cone solver gave up",
+            Self::IllConditioned => "ill-conditioned: the bodies hardly tell the contacts apart",
+            Self::RoundOff => "what is left is round-off",
+        }
+    }
+}
+
+impl Shortfall {
+    /// None for a certified answer.
+    pub(super) fn of(outcome: &Outcome) -> Option<Self> {
+        match outcome.status {
+            Status::Certified => None,
+            Status::NotConverged => outcome.shortfall.map(Self::from),
+            Status::NoEquilibrium => Some(Self {
+                reason: Reason::NoEquilibrium,
+                advice:
+                    "hold the motion by a support, or by more friction: `dpana limit` says how much"
+                        .to_owned(),
+            }),
+        }
+    }
+}
+
+impl From<dpana::Shortfall> for Shortfall {
+    fn from(shortfall: dpana::Shortfall) -> Self {
+        let (reason, advice) = match shortfall {
+            dpana::Shortfall::SweepLimit => (
+                Reason::SweepLimit,
+                "raise settings.max_sweeps, or leave it out".to_owned(),
+            ),
+            dpana::Shortfall::Stalled { sweeps } => (
+                Reason::Stalled,
+                format!(
+                    "{sweeps} sweeps without a better state: with this much friction there may be \
+                     several states, or one that smaller load steps lead to; try steps, or less friction"
+                ),
+            ),
+            dpana::Shortfall::ConeSolver => (
+                Reason::ConeSolver,
+                "numbers of very different size in one scene: look for a misplaced unit among \
+                 stiffnesses, loads and gaps"
+                    .to_owned(),
+            ),
+            dpana::Shortfall::IllConditioned { condition } => (
+                Reason::IllConditioned,
+                format!(
+                    "condition {} of the compliance: look for contacts that stand twice, nearly \
+                     in the same place or direction, and for supports that hardly hold a body",
+                    size(condition)
+                ),
+            ),
+            dpana::Shortfall::RoundOff { floor } => (
+                Reason::RoundOff,
+                format!(
+                    "no residual much below {} can be had in double precision: raise \
+                     settings.tolerance above it",
+                    size(floor)
+                ),
+            ),
+        };
+        Self { reason, advice }
+    }
+}

@@ -1,0 +1,101 @@
+//! How far the answer depends on where the solve started, as it is reported.
+
+use serde::Serialize;
+
+use crate::dpana::{Contraction, OtherStarts, Outcome};
+use crate::kkt::ContactStatus;
+
+/// What other starts led to, and how much friction the alternation takes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Trust {
+    /// In words.
+    pub words: String,
+    /// Factor per sweep by which the plain alternation shrinks a small disturbance of this state, an
+    /// estimate; `null` without friction, and between bodies that contact alone holds.
+    pub contraction: Option<f64>,
+    /// Multiple of all friction coefficients at which that factor would be one, on the contact states
+    /// as they are; `null` where it stays on its side of one up to a thousand times.
+    pub critical_friction_factor: Option<f64>,
+    /// Number of other starts.
+    pub starts: usize,
+    /// Starts that led to no certified state.
+    pub lost: usize,
+    /// Every certified state that was found; that of this report comes first.
+    pub solutions: Vec<TrustedState>,
+}
+
+/// A certified state.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TrustedState {
+    /// Number of other starts that led to it.
+    pub starts: usize,
+    /// The judge's residual.
+    pub residual: f64,
+    /// Open contacts.
+    pub open: usize,
+    /// Sticking contacts.
+    pub stick: usize,
+    /// Slipping contacts.
+    pub slip: usize,
+    /// Sum of normal reactions as pressed, in newton.
+    pub normal: f64,
+}
+
+impl Trust {
+    /// Joins both; `normals` are the contacts' normal unknowns.
+    pub(crate) fn new(
+        contraction: Option<Contraction>,
+        others: &OtherStarts,
+        normals: &[usize],
+    ) -> Self {
+        let solutions = others.solutions.iter();
+        let mut trust = Self {
+            words: String::new(),
+            contraction: contraction.map(|contraction| contraction.factor),
+            critical_friction_factor: contraction.and_then(|contraction| contraction.critical),
+            starts: others.starts,
+            lost: others.lost,
+            solutions: solutions
+                .map(|(outcome, starts)| TrustedState::new(outcome, *starts, normals))
+                .collect(),
+        };
+        trust.words = trust.sentence();
+        trust
+    }
+
+    fn sentence(&self) -> String {
+        let mut words = match self.solutions.len() {
+            1 => format!("one solution found from {} other starts", self.starts),
+            several => format!(
+                "NOT UNIQUE: {several} solutions found from {} other starts, each certified",
+                self.starts
+            ),
+        };
+        if self.lost > 0 {
+            words.push_str(&format!(" ({} led nowhere)", self.lost));
+        }
+        if let Some(factor) = self.contraction {
+            let does = if factor < 1.0 { "contracts" } else { "expands" };
+            words.push_str(&format!("; the alternation {does} by {factor:.2} a sweep"));
+        }
+        if let Some(multiple) = self.critical_friction_factor {
+            words.push_str(&format!(", by 1 at {multiple:.2} times the friction"));
+        }
+        words
+    }
+}
+
+impl TrustedState {
+    fn new(outcome: &Outcome, starts: usize, normals: &[usize]) -> Self {
+        let status = &outcome.verdict.status;
+        let count = |wanted| status.iter().filter(|status| **status == wanted).count();
+        Self {
+            starts,
+            residual: outcome.verdict.certificate.residual(),
+            open: count(ContactStatus::Open),
+            stick: count(ContactStatus::Stick),
+            slip: count(ContactStatus::Slip),
+            normal: -normals.iter().map(|&n| outcome.reaction[n]).sum::<f64>(),
+        }
+    }
+}
