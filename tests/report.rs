@@ -303,6 +303,7 @@ fn names_of_the_report_are_stable() {
         "contacts",
         "history",
         "notes",
+        "quality",
         "size",
         "status",
         "title",

@@ -236,12 +236,16 @@ impl ConicProgram {
 /// Tolerance while a program is set up; every solve brings its own.
 const INITIAL_TOLERANCE: f64 = 1e-8;
 
+/// Parts into which the work on a program is divided: the same on any number of threads, because
+/// every division rounds in its own way.
+const PARTS: u32 = 4;
+
 fn settings(tolerance: f64) -> Option<DefaultSettings<f64>> {
     DefaultSettingsBuilder::default()
         .verbose(false)
         .presolve_enable(false)
         .equilibrate_enable(false)
-        .max_threads(0)
+        .max_threads(PARTS)
         .direct_solve_method("faer".to_owned())
         .tol_gap_abs(tolerance)
         .tol_gap_rel(tolerance)

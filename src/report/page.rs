@@ -157,9 +157,10 @@ impl Study {
         let most = |count: fn(&super::StudiedMesh) -> usize| self.meshes.iter().map(count).max();
         if let (Some(sweeps), Some(steps)) = (most(|m| m.sweeps), most(|m| m.newton_steps)) {
             said.push(format!(
-                "The default loop is certified on {certified} of {} meshes, in at most {sweeps} \
-                 sweeps and {steps} Newton steps.",
-                self.meshes.len()
+                "The default loop is certified on {certified} of {} meshes, with at most {} and {}.",
+                self.meshes.len(),
+                counted(sweeps, "sweep"),
+                counted(steps, "Newton step")
             ));
         }
         if !self.exponents.is_empty() {
@@ -190,15 +191,19 @@ impl Study {
         }
         said.extend(self.duels());
         for name in Self::loops(self.runs.iter()) {
-            let lost = self
-                .of_part(Part::Friction)
-                .filter(|run| run.name == name && run.status != Status::Certified);
-            let lost: Vec<String> = lost
-                .filter_map(|run| run.friction)
-                .map(|mu| mu.to_string())
-                .collect();
-            if !lost.is_empty() {
-                said.push(format!("{name}: gave up at μ = {}.", lost.join(", ")));
+            for status in [Status::NotConverged, Status::NoEquilibrium] {
+                let lost = self
+                    .of_part(Part::Friction)
+                    .filter(|run| run.name == name && run.status == status);
+                let lost = lost.filter_map(|run| run.friction);
+                let lost: Vec<String> = lost.map(|mu| mu.to_string()).collect();
+                if !lost.is_empty() {
+                    said.push(format!(
+                        "{name}: {} at μ = {}.",
+                        words(status),
+                        lost.join(", ")
+                    ));
+                }
             }
         }
         said
@@ -297,6 +302,13 @@ fn words(status: Status) -> &'static str {
         Status::Certified => "certified",
         Status::NotConverged => "gave up",
         Status::NoEquilibrium => "no equilibrium",
+    }
+}
+
+fn counted(count: usize, what: &str) -> String {
+    match count {
+        1 => format!("1 {what}"),
+        count => format!("{count} {what}s"),
     }
 }
 

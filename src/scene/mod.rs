@@ -18,6 +18,7 @@ mod elastic_body;
 mod json;
 mod load;
 mod mesh_source;
+mod remeshed;
 mod saved_state;
 mod selection;
 mod spelling;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::error::Error;
-use crate::scene::{MeshSource, Scene};
+use crate::scene::Scene;
 
 /// What a study runs; the default is three meshes, three tolerances and seven coefficients.
 #[derive(Clone, Debug, PartialEq)]
@@ -125,60 +125,25 @@ impl Plan {
                 accepted: "a scene of one state".to_owned(),
             });
         }
-        if !self.meshes.is_empty() {
-            return self.with_files(scene);
-        }
-        let generated = |body: &crate::scene::SceneBody| {
-            matches!(
-                body.mesh,
-                MeshSource::Rectangle { .. } | MeshSource::Box { .. }
-            )
-        };
-        if !scene.bodies.iter().all(generated) {
-            // A mesh that cannot be refined is studied as it is.
-            return Ok(vec![("as given".to_owned(), scene.clone())]);
-        }
-        let refined = |factor: &f64| (format!("× {factor}"), refined(scene, *factor));
-        Ok(self.refine.iter().map(refined).collect())
-    }
-
-    fn with_files(&self, scene: &Scene) -> Result<Vec<(String, Scene)>, Error> {
-        let from_file = |mesh: &MeshSource| matches!(mesh, MeshSource::File { .. });
-        let of_files: Vec<usize> = (0..scene.bodies.len())
-            .filter(|&body| from_file(&scene.bodies[body].mesh))
-            .collect();
-        let &[body] = &of_files[..] else {
-            return Err(Error::NotAccepted {
-                place: "plan.meshes".to_owned(),
-                found: format!("a scene with {} meshes from files", of_files.len()),
-                accepted: "one with exactly one, that the list replaces".to_owned(),
+        if self.meshes.is_empty() {
+            let refined = self.refine.iter().map(|factor| {
+                let scene = scene.refined(*factor)?;
+                Some((format!("× {factor}"), scene))
             });
-        };
-        let with = |path: &PathBuf| {
-            let mut scene = scene.clone();
-            if let MeshSource::File { file, .. } = &mut scene.bodies[body].mesh {
-                // Files of a plan are relative to the working folder, those of a scene to its own.
-                *file = std::path::absolute(path).unwrap_or_else(|_| path.clone());
-            }
-            let name = path.file_stem().unwrap_or(path.as_os_str());
-            (name.to_string_lossy().into_owned(), scene)
-        };
-        Ok(self.meshes.iter().map(with).collect())
-    }
-}
-
-/// The scene with so many times the cells along every edge, at least one.
-fn refined(scene: &Scene, factor: f64) -> Scene {
-    let more = |cells: &mut usize| *cells = ((*cells as f64 * factor).round() as usize).max(1);
-    let mut scene = scene.clone();
-    for body in &mut scene.bodies {
-        match &mut body.mesh {
-            MeshSource::Rectangle { rectangle } => rectangle.cells.iter_mut().for_each(more),
-            MeshSource::Box { solid } => solid.cells.iter_mut().for_each(more),
-            MeshSource::File { .. } | MeshSource::Given(_) => {}
+            // A mesh that cannot be refined is studied as it is.
+            let as_given = || vec![("as given".to_owned(), scene.clone())];
+            return Ok(refined.collect::<Option<_>>().unwrap_or_else(as_given));
         }
+        let with = |path: &PathBuf| {
+            let name = path.file_stem().unwrap_or(path.as_os_str());
+            let scene = scene.with_mesh_file(path);
+            Ok((
+                name.to_string_lossy().into_owned(),
+                scene.map_err(|error| error.within("plan"))?,
+            ))
+        };
+        self.meshes.iter().map(with).collect()
     }
-    scene
 }
 
 #[cfg(test)]

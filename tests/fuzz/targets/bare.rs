@@ -64,7 +64,9 @@ fn numbers(from: &mut Unstructured<'_>, count: usize, strange: bool) -> Result<V
 impl<'a> Arbitrary<'a> for Numbers {
     fn arbitrary(from: &mut Unstructured<'a>) -> Result<Self> {
         let strange: [bool; 4] = Arbitrary::arbitrary(from)?;
-        let contacts = from.int_in_range(0..=CONTACTS)?;
+        // Small problems are as strange as large ones, and many more of them are tried.
+        let most = if from.ratio(1, 8)? { CONTACTS } else { 4 };
+        let contacts = from.int_in_range(0..=most)?;
         let tangents: Vec<usize> = match from.int_in_range(0..=4_u8)? {
             0 => vec![0; contacts],
             1 => vec![1; contacts],
@@ -103,7 +105,11 @@ impl<'a> Arbitrary<'a> for Numbers {
                 tolerance: 10_f64.powi(from.int_in_range(-17..=0)?),
                 ..Settings::default()
             },
-            _ => Settings::default(),
+            2 => Settings::default(),
+            _ => Settings {
+                max_sweeps: 12,
+                ..Settings::default()
+            },
         };
         Ok(Self {
             tangents,
