@@ -363,5 +363,5 @@ fn variants_for_study_need_held_bodies() {
     let mut scene = Scene::from_json(&scene.to_string(), "floating.json").unwrap();
     scene.settings.variant = dpana::dpana::Variant::PLAIN;
     let said = solve(&scene).unwrap_err().to_string();
-    assert!(said.contains("settings.variant: Plain"), "{said}");
+    assert!(said.contains("settings.variant: Sweeps"), "{said}");
 }

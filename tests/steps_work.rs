@@ -40,16 +40,18 @@ fn reports(scene: &Scene, substitutions: usize) -> Vec<Report> {
     reports
 }
 
-/// Nothing touches, and nothing was done to find that out.
+/// Nothing touches, and at most one Newton step from the state before was taken to find that out:
+/// it is not passed over, as with friction a state without contact need not be the only one.
 fn is_free(report: &Report) -> bool {
     let work = &report.work;
     let programs = work.normal_programs + work.friction_programs + work.coulomb_programs;
-    let steps = work.sweeps + work.passes + work.newton_steps;
+    let sweeps = work.sweeps + work.passes;
     let unloaded = report
         .contacts
         .iter()
         .all(|c| c.force.iter().all(|&f| f == 0.0));
-    unloaded && report.totals.open == report.size.contacts && programs + steps == 0
+    let cheap = programs + sweeps == 0 && work.newton_steps <= 1;
+    unloaded && report.totals.open == report.size.contacts && cheap
 }
 
 #[test]

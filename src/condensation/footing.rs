@@ -1,7 +1,7 @@
 //! Where the contacts of a surface stand: at corners of its facets.
 //!
 //! ```text
-//! (C14)  u_j = Σ_k B_jk v_k        B_jk = ∫ ψ_j N_k dA / w_j,   w_j = ∫ φ_j dA = ∫ ψ_j dA
+//! (C16)  u_j = Σ_k B_jk v_k        B_jk = ∫ ψ_j N_k dA / w_j,   w_j = ∫ φ_j dA = ∫ ψ_j dA
 //!        g_j = ∫ ψ_j g₀ dA / w_j   φ_j: linear on the facets, 1 at corner j
 //!        ∫ ψ_i φ_j dA = δ_ij w_j   ψ = D M⁻¹ φ on each facet, M = ∫ φ φᵀ dA, D = diag ∫ φ dA
 //! ```
@@ -34,7 +34,7 @@ const ALONG: f64 = 1e-8;
 pub(super) struct Footing {
     /// The corner.
     pub(super) node: usize,
-    /// The nodes that it moves with, and B (C14).
+    /// The nodes that it moves with, and B (C16).
     pub(super) own: Vec<(usize, f64)>,
     /// `w_j`, in m² (plane bodies: in metre).
     pub(super) area: f64,
@@ -77,7 +77,7 @@ pub(super) fn footings(
     Ok(found.collect())
 }
 
-/// `D M⁻¹` of a facet (C14); one where it has no area, as on an axis.
+/// `D M⁻¹` of a facet (C16); one where it has no area, as on an axis.
 fn duals(points: &[FacetPoint], corners: usize) -> DMatrix<f64> {
     let mut mass = DMatrix::zeros(corners, corners);
     let mut areas = DVector::zeros(corners);

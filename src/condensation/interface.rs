@@ -5,7 +5,7 @@
 //!       û = Σ_k B_k v̂_k + given,   G = Σ_k B_k G_k B_kᵀ,   forces on body k: B_kᵀ t
 //! ```
 //!
-//! A contact's own node enters with weight one, or the nodes around it with those of (C14), a node
+//! A contact's own node enters with weight one, or the nodes around it with those of (C16), a node
 //! of the opposite side with minus its mortar weight. A row of B_k is that weight times the contact's direction, in the
 //! axes of the node.
 

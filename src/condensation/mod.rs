@@ -11,7 +11,7 @@
 //! | step | file |
 //! |---|---|
 //! | where the bodies may touch what | `surface`, `frame` |
-//! | corners and the nodes around them (C14) | `footing` |
+//! | corners and the nodes around them (C16) | `footing` |
 //! | a rigid obstacle | `obstacle_contacts`: `obstacle`, `facing` |
 //! | another surface | `paired` |
 //! | what a deformable other side is to the contact nodes (C7)–(C10) | `mortar` |

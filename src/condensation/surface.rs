@@ -5,7 +5,7 @@
 //! initial gap       signed distance from the node to the obstacle
 //! ```
 //!
-//! Contacts stand at corners; those of quadratic facets move with the nodes around, (C14) in
+//! Contacts stand at corners; those of quadratic facets move with the nodes around, (C16) in
 //! `footing`, and their gaps are means. Areas of axisymmetric bodies go around the axis.
 
 use super::Obstacle;

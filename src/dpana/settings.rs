@@ -30,7 +30,7 @@ impl Variant {
 pub struct Sweeps {
     /// What follows the normal half-step.
     pub mixing: Mixing,
-    /// Half-steps to the last digit (D7); else tied to the outer residual.
+    /// Half-steps to the last digit (D6); else tied to the outer residual.
     pub exact: bool,
     /// A Newton finish after every sweep.
     pub finish: bool,

@@ -16,7 +16,7 @@
 //! pressure exactly.
 //!
 //! Quadratic facets of side 1 carry the dual multipliers of the linear `φ_j` at their corners
-//! (C14); those of side 2 enter by their own `N²_k`.
+//! (C16); those of side 2 enter by their own `N²_k`.
 //!
 //! | step | file |
 //! |---|---|
@@ -69,7 +69,7 @@ pub struct Mortar {
 pub struct MortarNode {
     /// Node of side 1's mesh: a corner.
     pub node: usize,
-    /// The nodes of side 1's mesh that it moves with and their weights, which sum to one (C14);
+    /// The nodes of side 1's mesh that it moves with and their weights, which sum to one (C16);
     /// its own node alone where its facets are linear.
     pub own: Vec<(usize, f64)>,
     /// `D_i = ∫ N_i dA` over what the other side covers, in m² (2D: in metre).

@@ -8,7 +8,7 @@
 //! facet's shape functions, so that `D_i P_ik = ∫ ψ_i N²_k dA` with the dual functions
 //! `ψ = D M⁻¹ N`. Rows of `B` sum to `M 1`, hence rows of `P` sum to one.
 //!
-//! On quadratic facets the linear `φ_j` of (C14) stand for `N_i`, and their own nodes enter by
+//! On quadratic facets the linear `φ_j` of (C16) stand for `N_i`, and their own nodes enter by
 //! `∫ ψ_j N_k dA`. Around an axis `dA = 2πr ds`.
 
 use nalgebra::Vector3;
@@ -29,7 +29,7 @@ pub(super) struct Projection {
     pub(super) areas: [f64; 4],
     /// `∫ N_i n dA`, in m² (2D: metre).
     pub(super) vectors: [Vector3<f64>; 4],
-    /// Nodes of the facet, with `D_j` at node j alone, or with `∫ ψ_j N_k dA` (C14).
+    /// Nodes of the facet, with `D_j` at node j alone, or with `∫ ψ_j N_k dA` (C16).
     pub(super) own: Vec<(usize, [f64; 4])>,
     /// Nodes of side 2, ascending, with `D_i P_ik = ∫ ψ_i N²_k dA`.
     pub(super) columns: Vec<(usize, [f64; 4])>,
