@@ -4,8 +4,8 @@
 //! (D7)  κ = λ_max(D^-½ G D^-½) · λ_max(D^½ S D^½),   D: diagonal of G
 //! ```
 //!
-//! A residual of r leaves a reaction wrong by up to κ r. Both by a few power iterations: the
-//! order of magnitude, from below.
+//! A residual of r leaves a reaction wrong by up to κ r. Both by a few power iterations: an
+//! estimate from below.
 
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Col, Mat, Par};
@@ -13,7 +13,7 @@ use faer::{Accum, Col, Mat, Par};
 use crate::condensation::ContactProblem;
 
 /// Power iterations per matrix.
-const ITERATIONS: usize = 4;
+const ITERATIONS: usize = 8;
 
 /// `S` that does not undo `G` on its own largest vector by this part is that of a shifted G.
 const UNDONE: f64 = 0.5;
