@@ -15,6 +15,7 @@ use faer::linalg::solvers::Solve;
 use faer::{Col, Mat, Side};
 
 use super::Shortfall;
+use super::condition::times;
 use super::finish::Finish;
 use super::iterate::Iterate;
 use super::sweep::Run;
@@ -136,7 +137,7 @@ pub(super) fn stuck(problem: &ContactProblem) -> Option<Vec<f64>> {
     for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
         back[n] += gap;
     }
-    let reaction = problem.operator().stiffness()? * back;
+    let reaction = times(problem.operator().stiffness()?, &back);
     Some(reaction.iter().copied().collect())
 }
 

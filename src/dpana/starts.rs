@@ -46,8 +46,9 @@ pub fn other_starts(
         solutions: vec![(found.clone(), 0)],
         lost: 0,
     };
+    let stuck = stuck(problem).unwrap_or_else(|| vec![0.0; problem.unknowns()]);
     for number in 0..starts {
-        let start = start(problem, &found.reaction, number, &mut random);
+        let start = start(problem, &found.reaction, &stuck, number, &mut random);
         let outcome = solve_from(problem, settings, &start, &found.motion)?;
         others.add(problem, outcome);
     }
@@ -60,11 +61,8 @@ impl OtherStarts {
             self.lost += 1;
             return;
         }
-        let known = self.solutions.iter_mut();
-        match known
-            .into_iter()
-            .find(|(known, _)| same(problem, known, &outcome))
-        {
+        let mut known = self.solutions.iter_mut();
+        match known.find(|(known, _)| same(problem, known, &outcome)) {
             Some((_, led)) => *led += 1,
             None => self.solutions.push((outcome, 1)),
         }
@@ -87,12 +85,17 @@ fn same(problem: &ContactProblem, one: &Outcome, other: &Outcome) -> bool {
 }
 
 /// The start of this number.
-fn start(problem: &ContactProblem, found: &[f64], number: usize, random: &mut Random) -> Vec<f64> {
-    let stuck = stuck(problem).unwrap_or_else(|| vec![0.0; found.len()]);
+fn start(
+    problem: &ContactProblem,
+    found: &[f64],
+    stuck: &[f64],
+    number: usize,
+    random: &mut Random,
+) -> Vec<f64> {
     if number == 4 {
-        return stuck;
+        return stuck.to_vec();
     }
-    let sizes = found.iter().chain(&stuck).map(|t| t.abs());
+    let sizes = found.iter().chain(stuck).map(|t| t.abs());
     let largest = sizes.fold(0.0, f64::max);
     let mut start = vec![0.0; found.len()];
     for (contact, ends) in problem.offsets().windows(2).enumerate() {
