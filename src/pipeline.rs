@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use crate::body::{self, Body};
 use crate::condensation::{Condensed, ContactPair};
-use crate::dpana::{self, Outcome, Settings, Status};
+use crate::dpana::{self, Earlier, Outcome, Settings, Status};
 use crate::error::Error;
 use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
@@ -248,8 +248,9 @@ impl Solution {
         }
     }
 
-    /// Solves the contacts of a certified solution again from this many other starts, and estimates
-    /// how much friction the alternation takes; none for a solution without certificate.
+    /// Solves the contacts of a certified solution again from this many other starts, estimates how
+    /// much friction the alternation takes, and follows the state back to the last one (to rest, where
+    /// there is none) to see whether bodies jump on the way; none for a solution without certificate.
     ///
     /// # Errors
     ///
@@ -262,8 +263,12 @@ impl Solution {
         let settings = &self.setup.settings;
         let others = dpana::other_starts(problem, settings, &self.outcome, starts)?;
         let contraction = dpana::contraction(problem, &self.outcome);
+        let way_back = match &self.step {
+            None => dpana::way_back(problem, settings, &self.outcome, &Earlier::rest(problem))?,
+            Some(step) => dpana::way_back(problem, settings, &self.outcome, step.start())?,
+        };
         let normals = &problem.offsets()[..problem.contacts()];
-        Ok(Some(Trust::new(contraction, &others, normals)))
+        Ok(Some(Trust::new(contraction, way_back, &others, normals)))
     }
 
     /// The load step that led here; none where the scene has no steps.

@@ -18,6 +18,7 @@ use super::Shortfall;
 use super::condition::times;
 use super::finish::Finish;
 use super::iterate::Iterate;
+use super::plane_path::{End, PlanePath};
 use super::sweep::Run;
 use crate::condensation::ContactProblem;
 use crate::cone::Role;
@@ -42,25 +43,48 @@ const STEPS_IN_ALL: usize = 200;
 const CLOSE: f64 = 1e-8;
 
 impl Run<'_> {
-    /// (D9), once; then Newton steps to the last digits.
-    pub(super) fn climb_in_friction(&mut self) {
+    /// (D9), or in the plane (D10), once; then Newton steps to the last digits.
+    pub(super) fn follow_a_path(&mut self) {
         let given_up = self.shortfall == Some(Shortfall::ConeSolver);
         if self.is_solved() || (self.work.sweeps != SWEEPS && !given_up) {
             return;
         }
-        let start = Instant::now();
-        let up = self.without_friction();
-        let found = up
-            .and_then(|reaction| self.follow(reaction, |way| way))
-            .or_else(|| {
-                let stuck = stuck(self.problem)?;
-                self.follow(stuck, |way| ROUGH.powf(1.0 - way))
-            });
-        self.work.seconds.finish += start.elapsed().as_secs_f64();
-        if let Some(reaction) = found {
-            self.state.reaction = reaction;
-            self.judge();
-            self.newton_finish();
+        let far = match PlanePath::of_approach(self.problem) {
+            Some(_) => Self::approach,
+            None => Self::descend_from_rough,
+        };
+        for way in [Self::climb_from_smooth, far] {
+            let start = Instant::now();
+            let found = way(self);
+            self.work.seconds.finish += start.elapsed().as_secs_f64();
+            if let Some(reaction) = found {
+                self.state.reaction = reaction;
+                self.judge();
+                self.newton_finish();
+            }
+            if self.is_solved() {
+                break;
+            }
+        }
+    }
+
+    fn climb_from_smooth(&mut self) -> Option<Vec<f64>> {
+        let reaction = self.without_friction()?;
+        self.follow(reaction, |way| way)
+    }
+
+    fn descend_from_rough(&mut self) -> Option<Vec<f64>> {
+        let stuck = stuck(self.problem)?;
+        self.follow(stuck, |way| ROUGH.powf(1.0 - way))
+    }
+
+    fn approach(&mut self) -> Option<Vec<f64>> {
+        let mut path = PlanePath::of_approach(self.problem)?;
+        let end = path.follow(true);
+        self.work.path_changes += path.changes;
+        match end {
+            End::Reached(reaction) => Some(reaction),
+            End::Turned(_) | End::Lost(_) => None,
         }
     }
 

@@ -121,6 +121,8 @@ pub struct Work {
     pub newton_steps: usize,
     /// Coefficients of friction that were passed through on the way up to the problem's own (D9).
     pub friction_parts: usize,
+    /// Contacts that changed what they do, one after the other, on a path from afar (D10).
+    pub path_changes: usize,
     /// Seconds of prediction, half-steps, finish, judge.
     pub seconds: Seconds,
 }

@@ -21,6 +21,7 @@
 mod anderson;
 mod climb;
 mod condition;
+mod continuity;
 mod contraction;
 mod exact;
 mod finish;
@@ -28,12 +29,14 @@ mod float;
 mod gauss_seidel;
 mod history;
 mod iterate;
+mod plane_path;
 mod prediction;
 mod settings;
 mod starts;
 mod stiffness;
 mod sweep;
 
+pub use continuity::{Earlier, WayBack, way_back};
 pub use contraction::{Contraction, contraction};
 pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use settings::{Mixing, Settings, Sweeps, Variant};
@@ -153,7 +156,7 @@ fn run(mut run: Run<'_>) -> Outcome {
                 run.friction_half_step();
                 run.judge();
                 run.newton_finish();
-                run.climb_in_friction();
+                run.follow_a_path();
                 run.end_sweep();
             }
         }

@@ -62,22 +62,19 @@ impl OtherStarts {
             return;
         }
         let mut known = self.solutions.iter_mut();
-        match known.find(|(known, _)| same(problem, known, &outcome)) {
+        let found = &outcome.verdict.displacement;
+        let free = problem.free_displacement();
+        match known.find(|(known, _)| same(free, &known.verdict.displacement, found)) {
             Some((_, led)) => *led += 1,
             None => self.solutions.push((outcome, 1)),
         }
     }
 }
 
-fn same(problem: &ContactProblem, one: &Outcome, other: &Outcome) -> bool {
-    let free = problem.free_displacement();
+/// Whether two displacements are one, where nothing but the reactions moves contacts from `free`.
+pub(super) fn same(free: &[f64], one: &[f64], other: &[f64]) -> bool {
     let (mut apart, mut moved) = (0.0_f64, 0.0_f64);
-    let pairs = one
-        .verdict
-        .displacement
-        .iter()
-        .zip(&other.verdict.displacement);
-    for ((a, b), free) in pairs.zip(free) {
+    for ((a, b), free) in one.iter().zip(other).zip(free) {
         apart = apart.max((a - b).abs());
         moved = moved.max((a - free).abs()).max((b - free).abs());
     }

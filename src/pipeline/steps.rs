@@ -3,7 +3,7 @@
 use super::halving::Halving;
 use super::substep::{Course, State};
 use super::{Setup, Solution};
-use crate::dpana::{self, Status};
+use crate::dpana::{self, Earlier, Status};
 use crate::error::{Error, check_length};
 use crate::kkt::Ledger;
 use crate::report;
@@ -94,6 +94,7 @@ pub struct SolvedStep {
     bodies: Fingerprint,
     history: Fingerprint,
     state: State,
+    start: Earlier,
 }
 
 impl Past {
@@ -177,6 +178,7 @@ impl Past {
             bodies: self.bodies,
             history: led_to(course.history, steps + 1),
             state: reached.state,
+            start: reached.start,
         };
         let setup = course.setup.clone();
         let mut solution = setup.measure(reached.outcome, reached.displacements)?;
@@ -240,6 +242,11 @@ impl SolvedStep {
     #[must_use]
     pub fn halving(&self) -> Option<Halving> {
         self.halving
+    }
+
+    /// Where it was solved from; the last of its parts, where it was halved.
+    pub(super) fn start(&self) -> &Earlier {
+        &self.start
     }
 
     fn past(&self) -> Past {

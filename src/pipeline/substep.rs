@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::Setup;
-use crate::condensation::{ContactSurface, Superposition};
-use crate::dpana::{self, Outcome, Status};
+use crate::condensation::{ContactProblem, ContactSurface, Superposition};
+use crate::dpana::{self, Earlier, Outcome, Status};
 use crate::error::Error;
 use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
 use crate::scene::LoadHistory;
@@ -38,6 +38,8 @@ pub(super) struct Reached {
     pub(super) displacements: Vec<Vec<f64>>,
     pub(super) state: State,
     pub(super) ledger: Ledger,
+    /// Where it was reached from.
+    pub(super) start: Earlier,
 }
 
 impl<'a> Course<'a> {
@@ -119,6 +121,7 @@ impl<'a> Course<'a> {
             account: Some(Arc::new(account)),
         };
         Ok(Reached {
+            start: from.seen_from(problem, condensed.surface()),
             at,
             outcome,
             displacements,
@@ -144,6 +147,24 @@ impl State {
 
     pub(super) fn slip(&self) -> &[f64] {
         &self.slip
+    }
+
+    /// What a step from here on sees of it, under its own reference (C13).
+    fn seen_from(&self, problem: &ContactProblem, surface: &ContactSurface) -> Earlier {
+        if self.account.is_none() {
+            return Earlier::rest(problem);
+        }
+        let mut displacement = vec![0.0; problem.unknowns()];
+        let contacts = surface.nodes.iter().zip(&self.relative);
+        for (&n, (contact, relative)) in problem.offsets().iter().zip(contacts) {
+            let along = contact.frame[0].iter().zip(relative);
+            displacement[n] = along.map(|(axis, u)| axis * u).sum();
+        }
+        Earlier {
+            reaction: self.reaction.clone(),
+            displacement,
+            motion: self.motion.clone(),
+        }
     }
 
     /// Elastic energy of all bodies, in joule.

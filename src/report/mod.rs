@@ -36,7 +36,7 @@ pub use contacts::{Contact, ContactState};
 pub use failure::Failure;
 pub use figure::{Axis, Curve, Figure, Point};
 pub use file::replace_file;
-pub use hard::{HardCase, HardCases, HardVerdict};
+pub use hard::{HardCase, HardCases};
 pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
 pub use motion::Motion;
 pub(crate) use motion::motions;
@@ -47,7 +47,7 @@ pub use step::{Halving, Ledger, Step};
 pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
 pub use totals::{Exchange, PairTotals, Totals};
-pub use trust::{Trust, TrustedState};
+pub use trust::{Continuity, Trust, TrustedState};
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{Seconds, StageWork, Sweep, Work};
 

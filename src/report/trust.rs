@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::dpana::{Contraction, OtherStarts, Outcome};
+use crate::dpana::{Contraction, OtherStarts, Outcome, WayBack};
 use crate::kkt::ContactStatus;
 
 /// What other starts led to, and how much friction the alternation takes.
@@ -16,12 +16,28 @@ pub struct Trust {
     /// Multiple of all friction coefficients at which that factor would be one, on the contact states
     /// as they are; `null` where it stays on its side of one up to a thousand times.
     pub critical_friction_factor: Option<f64>,
+    /// Whether the state is reached from the last one (from rest, where there is none) without a jump.
+    pub continuity: Continuity,
     /// Number of other starts.
     pub starts: usize,
     /// Starts that led to no certified state.
     pub lost: usize,
     /// Every certified state that was found; that of this report comes first.
     pub solutions: Vec<TrustedState>,
+}
+
+/// Whether a path of states leads from the last one to this, loads changing in proportion.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Continuity {
+    /// It does.
+    Continuous,
+    /// It does not: followed back, the state turns at this part of the step.
+    Turns(f64),
+    /// It does not: followed back, the state leads to another one than the last.
+    Elsewhere,
+    /// Not known: the state could not be followed back below this part of the step.
+    Lost(f64),
 }
 
 /// A certified state.
@@ -45,6 +61,7 @@ impl Trust {
     /// Joins both; `normals` are the contacts' normal unknowns.
     pub(crate) fn new(
         contraction: Option<Contraction>,
+        way_back: WayBack,
         others: &OtherStarts,
         normals: &[usize],
     ) -> Self {
@@ -53,6 +70,7 @@ impl Trust {
             words: String::new(),
             contraction: contraction.map(|contraction| contraction.factor),
             critical_friction_factor: contraction.and_then(|contraction| contraction.critical),
+            continuity: way_back.into(),
             starts: others.starts,
             lost: others.lost,
             solutions: solutions
@@ -81,7 +99,30 @@ impl Trust {
         if let Some(multiple) = self.critical_friction_factor {
             words.push_str(&format!(", by 1 at {multiple:.2} times the friction"));
         }
+        words.push_str(&match self.continuity {
+            Continuity::Continuous => "; reached without a jump".to_owned(),
+            Continuity::Turns(part) => format!(
+                "; NO CONTINUOUS PATH leads here: there is no state like this before {part:.3} of the step"
+            ),
+            Continuity::Elsewhere => {
+                "; NO CONTINUOUS PATH leads here: going back leads to another state".to_owned()
+            }
+            Continuity::Lost(part) => {
+                format!("; followed back to {part:.3} of the step only, for jumps")
+            }
+        });
         words
+    }
+}
+
+impl From<WayBack> for Continuity {
+    fn from(way_back: WayBack) -> Self {
+        match way_back {
+            WayBack::Continuous => Self::Continuous,
+            WayBack::Turns(part) => Self::Turns(part),
+            WayBack::Elsewhere => Self::Elsewhere,
+            WayBack::Lost(part) => Self::Lost(part),
+        }
     }
 }
 

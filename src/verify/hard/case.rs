@@ -7,7 +7,7 @@ use crate::condensation::ContactProblem;
 use crate::dpana::{self, Outcome, Settings, Status};
 use crate::error::Error;
 use crate::pipeline::{self, Solution};
-use crate::report::{HardCase, HardVerdict};
+use crate::report::HardCase;
 use crate::scene::Scene;
 
 /// A case of the battery.
@@ -18,7 +18,6 @@ pub(super) struct Case {
     posed: Posed,
     expected: Status,
     truths: Vec<Truth>,
-    beyond: Option<&'static str>,
 }
 
 /// A scene, or a problem that is condensed already.
@@ -65,7 +64,6 @@ impl Case {
             posed,
             expected: Status::Certified,
             truths: Vec::new(),
-            beyond: None,
         }
     }
 
@@ -75,14 +73,6 @@ impl Case {
 
     pub(super) fn ends(self, expected: Status) -> Self {
         Self { expected, ..self }
-    }
-
-    /// Says why this case is beyond the method: it is known not to be certified, and to say so.
-    pub(super) fn beyond(self, why: &'static str) -> Self {
-        Self {
-            beyond: Some(why),
-            ..self
-        }
     }
 
     /// Adds a truth: `error`, relative, is at most `within`.
@@ -144,12 +134,6 @@ impl Case {
                 missed.push(format!("{} off by {error:.1e}", truth.what));
             }
         }
-        let verdict = match (self.beyond, outcome.status) {
-            (Some(why), Status::NotConverged) => HardVerdict::Beyond(why),
-            (Some(_), _) => HardVerdict::Fail(vec!["is no longer beyond the method".to_owned()]),
-            (None, _) if missed.is_empty() => HardVerdict::Pass,
-            (None, _) => HardVerdict::Fail(missed),
-        };
         Ok(HardCase {
             family: self.family,
             name: self.name.clone(),
@@ -161,7 +145,7 @@ impl Case {
             newton_steps: outcome.work.newton_steps,
             contact_seconds: answer.seconds[0],
             seconds: answer.seconds[1],
-            verdict,
+            missed,
         })
     }
 }
