@@ -4,7 +4,8 @@
 //! predict    which contacts are open, pressed, stuck
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
 //! finish     semismooth Newton on the laws, kept only if the judge's residual falls
-//! climb      if that failed twice: Newton again, friction raised from nothing (or lowered from rough)
+//! path       if that failed twice: friction raised from nothing by Newton steps; then in the plane the
+//!            surfaces brought together from afar, in space friction lowered from rough
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!

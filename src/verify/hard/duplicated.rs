@@ -12,7 +12,7 @@ use crate::kkt::Judge;
 const CELLS: usize = 24;
 
 /// Both copies pressed at once have no state; the one that the turn opens is apart by the angle times
-/// the slip, which for the smallest of these is 1e-17 m.
+/// the slip, which is 1e-5 m.
 const ANGLES: [f64; 10] = [
     0.0, 1e-15, 1e-13, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-4,
 ];
@@ -20,10 +20,24 @@ const ANGLES: [f64; 10] = [
 /// Above this friction single contacts may have several states.
 const UNIQUE: f64 = 3.0;
 
-/// Of the tolerance 1e-12 a compliance without inverse leaves displacements their digits; a turn moves them
-/// and the edges of the disc by its angle.
+/// Of the tolerance 1e-12 a compliance without inverse leaves displacements their digits; a turn moves
+/// them and the edges of the disc by its angle, and tilts what each copy carries.
 fn within(friction: f64, angle: f64) -> f64 {
     1e-9 + 2.0 * (1.0 + friction) * angle
+}
+
+/// How far what both copies carry together is from a state of single contacts. A turn changes gaps by
+/// its angle times the slip, so that this is measured beside the force that would undo the slip.
+fn departure(single: &ContactProblem, joined: &[f64]) -> f64 {
+    let verdict = Judge::new(single).measure(joined);
+    let (mut force, mut slip) = (0.0_f64, 0.0_f64);
+    for (k, t) in joined.iter().enumerate() {
+        force = force.hypot(*t);
+        if k % 2 == 1 {
+            slip = slip.hypot(verdict.displacement[k] / single.compliance()[(k - 1, k - 1)]);
+        }
+    }
+    verdict.certificate.natural_map * force / (force + slip)
 }
 
 /// What both copies carry, in the axes of the first.
@@ -85,11 +99,7 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
             let case = case.knows(
                 "a state of single contacts",
                 within(friction, angle),
-                move |answer| {
-                    let joined = joined(&answer.outcome.reaction, angle);
-                    let residual = Judge::new(&alone).measure(&joined).certificate.natural_map;
-                    Ok(residual)
-                },
+                move |answer| Ok(departure(&alone, &joined(&answer.outcome.reaction, angle))),
             );
             cases.push(match friction > UNIQUE {
                 true => case,
