@@ -1,4 +1,5 @@
-//! Where the sweeps do not settle: friction raised from nothing, or lowered from rough, to what it is.
+//! Where the sweeps do not settle: friction raised from nothing, or lowered from rough, to what it is;
+//! in the plane then surfaces that approach from afar (D10).
 //!
 //! ```text
 //! (D9)  t(λ): the state for λ μ,  λ: 0 → 1, or 1000 → 1,  each by Newton steps (D4) from the one before
@@ -6,8 +7,8 @@
 //!
 //! From state to state few contacts change what they do, and Newton steps follow where from afar
 //! they would cycle. Without friction a normal program finds the first state; rough contacts slip
-//! nowhere. A way ends where its states turn back (more than one state for the same friction): sweeping then
-//! goes on.
+//! nowhere. Such a way ends where its states turn back (more than one state for the same friction); that of
+//! (D10) goes round. Where all fail sweeping goes on.
 
 use std::time::Instant;
 
@@ -43,7 +44,7 @@ const STEPS_IN_ALL: usize = 200;
 const CLOSE: f64 = 1e-8;
 
 impl Run<'_> {
-    /// (D9), or in the plane (D10), once; then Newton steps to the last digits.
+    /// (D9) and in the plane (D10), once, with Newton steps to the last digits.
     pub(super) fn follow_a_path(&mut self) {
         let given_up = self.shortfall == Some(Shortfall::ConeSolver);
         if self.is_solved() || (self.work.sweeps != SWEEPS && !given_up) {
@@ -68,16 +69,19 @@ impl Run<'_> {
         }
     }
 
+    /// (D9) from no friction.
     fn climb_from_smooth(&mut self) -> Option<Vec<f64>> {
         let reaction = self.without_friction()?;
         self.follow(reaction, |way| way)
     }
 
+    /// (D9) from rough contacts.
     fn descend_from_rough(&mut self) -> Option<Vec<f64>> {
         let stuck = stuck(self.problem)?;
         self.follow(stuck, |way| ROUGH.powf(1.0 - way))
     }
 
+    /// (D10).
     fn approach(&mut self) -> Option<Vec<f64>> {
         let mut path = PlanePath::of_approach(self.problem)?;
         let end = path.follow(true);
