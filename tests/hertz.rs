@@ -123,6 +123,8 @@ fn a_block_under_a_sphere_carries_the_pressure_of_a_point_contact() {
     let radius = (3.0 * load * 10.0 / (4.0 * 2.1e5 / 0.91)).cbrt();
     let reference = (3.0 * 1000.0_f64 * 10.0 / (4.0 * 2.1e5 / 0.91)).cbrt();
     assert!((reference - 0.319_125_21).abs() < 1e-8);
+    // Strips of constant pressure, five per half-width, miss p₀ by 0.5 % in the plane (references:
+    // computed; second order); cells miss it along two axes, and their corners more than strips.
     assert_near(
         report.totals.peak_pressure,
         1.5 * load / (PI * radius * radius),
@@ -141,14 +143,15 @@ fn symmetry_planes_may_meet_a_contact_with_friction() {
     let report = certified(&quarter_under_a_sphere(0.01, 0.3));
     let (totals, contacts) = (&report.totals, &report.contacts);
     assert!(totals.stick > 0 && totals.slip > 0, "{totals:?}");
-    // Swapping x and y maps the scene onto itself.
+    // Swapping x and y maps the scene onto itself; certified to 1e-12, two digits for the condition
+    // of G, some 14 contacts across.
     let [f_x, f_y] = [totals.friction[0], totals.friction[1]];
     assert!((f_x - f_y).abs() < 1e-10 * f_x.abs(), "{f_x} {f_y}");
     for contact in contacts {
         // On a symmetry plane nothing slips out of it, and friction has no part there.
         for axis in (0..2).filter(|&axis| contact.position[axis] == 0.0) {
-            assert!(contact.slip[axis].abs() < 1e-18, "{contact:?}");
-            assert!(contact.force[axis].abs() < 1e-9 * totals.normal);
+            assert!(contact.slip[axis].abs() < 1e-16 * 0.01, "{contact:?}");
+            assert!(contact.force[axis].abs() < 1e-15 * totals.normal);
         }
     }
 }

@@ -571,8 +571,11 @@ fn a_body_whose_nodes_are_all_held_drags_another_by_friction() {
                         0.25 * contact.pressure.unwrap(),
                         contact.friction_traction.as_ref().unwrap()[0].abs(),
                     ];
-                    // The block's own displacement turns the slip by some 1e-4: it loses (1e-4)²/2.
-                    assert!((q - bound).abs() < 1e-8, "{kind:?} {cells:?} {q} {bound}");
+                    // The block's own displacement turns the slip by a few 1e-4, which costs half its square.
+                    assert!(
+                        (q - bound).abs() <= 1e-7 * bound,
+                        "{kind:?} {cells:?} {q} {bound}"
+                    );
                 }
                 assert!(report.totals.slip > 0 && report.totals.stick == 0);
                 let report = solve(0.0);
