@@ -265,6 +265,6 @@ fn twenty_four_cells_per_side_satisfy_the_full_problem() {
     // It would see a contact that is off by a millionth of the top's motion.
     let mut disturbed = solution.displacements()[0].to_vec();
     disturbed[3 * full.contacts[300]] += 1e-8;
-    // 1e-8 m on a node of stiffness E h, of a force E h · 1e-2 m on the largest: 1e-6, or much more than 1e-9.
+    // 1e-8 m times E h, the stiffness of a node, is 1e-6/h of the largest force, E h² · 1e-2 m.
     assert!(full.relative_residual(&disturbed) > 1e-9);
 }

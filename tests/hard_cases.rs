@@ -133,6 +133,7 @@ fn a_tolerance_below_round_off_ends_soon_and_says_so() {
         unreachable!("{:?}", outcome.shortfall);
     };
     let residual = outcome.verdict.certificate.residual();
+    // ε/2 · ‖|G| |t|‖ / ‖G t‖, some 48 contacts across; within four times that the loop calls it round-off.
     assert!(
         floor < 1e-13 && residual < 4.0 * floor,
         "{floor:e} {residual:e}"

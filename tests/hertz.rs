@@ -69,9 +69,13 @@ fn a_parabola_on_a_plane_carries_the_pressure_of_a_line_contact() {
     let half_width = (4.0 * load * 100.0 / (PI * modulus)).sqrt();
     let peak = 2.0 * load / (PI * half_width);
 
-    assert_near(report.totals.peak_pressure, peak, 1e-3);
+    // No worse than strips of constant pressure: ten of them per half-width miss p₀ by 1.3e-3, and the
+    // pressure in L2 by 0.11/10 (references: computed).
+    let strips = half_width / contacts[1].position[0];
+    assert_near(report.totals.peak_pressure, peak, 0.13 / strips.powi(2));
     assert_eq!(contacts[0].pressure, Some(report.totals.peak_pressure));
-    // ∫ x² p dx / ∫ p dx = a²/4 for p = p₀ √(1 − x²/a²).
+    // ∫ x² p dx / ∫ p dx = a²/4 for p = p₀ √(1 − x²/a²). The body is twenty half-widths high,
+    // (a/L)² = 2e-3, and nodal forces on cells of a/10 put up to (2/3) h²/a² · ½ = 3e-3 on top.
     assert_near(2.0 * mean_square(contacts).sqrt(), half_width, 5e-3);
     for contact in contacts {
         let pressed = contact.pressure.unwrap() > 0.0;
@@ -86,7 +90,10 @@ fn a_parabola_on_a_plane_carries_the_pressure_of_a_line_contact() {
         size += contact.area * hertz * hertz;
     }
     let relative = (error / size).sqrt();
-    assert!(relative < 6e-3, "L2 error of the pressure {relative:e}");
+    assert!(
+        relative < 0.11 / strips,
+        "L2 error of the pressure {relative:e}"
+    );
 }
 
 /// A quarter of a steel block, 12.8 mm, pushed up by `approach` against a rigid sphere, R = 10 mm.
