@@ -17,10 +17,13 @@ fn load(name: &str) -> BareProblem {
     BareProblem::from_json(&std::fs::read_to_string(path).unwrap(), name).unwrap()
 }
 
+/// The accuracy that FCLIB, the public library of such problems, asks for.
+const ACCURACY: f64 = 1e-8;
+
 fn run(bare: &BareProblem) -> (ContactProblem, Outcome) {
     let problem = bare.to_problem().unwrap();
     let settings = Settings {
-        tolerance: 1e-8,
+        tolerance: ACCURACY,
         ..Settings::default()
     };
     let outcome = solve(&problem, &settings).unwrap();
@@ -91,7 +94,7 @@ fn every_public_problem_is_certified_and_passes_a_second_residual() {
         let (_, outcome) = run(&bare);
         let second = rigid_body_residual(&bare, &outcome.reaction);
         assert_eq!(outcome.status, Status::Certified, "{name}");
-        assert!(second <= 1e-8, "{name}: {second:e}");
+        assert!(second <= ACCURACY, "{name}: {second:e}");
         // Whatever the prediction found, the default ran cone programs.
         assert!(
             outcome.work.sweeps >= 1 && outcome.work.cone_iterations >= 1,
@@ -145,15 +148,18 @@ fn the_three_loops_agree() {
         outcome.reaction
     };
     let default = run(Variant::Default, 1e-12, 100);
-    let scale = default
-        .iter()
-        .fold(0.0_f64, |largest, t| largest.max(t.abs()));
-    for other in [
-        run(Variant::PLAIN, 1e-5, 200),
-        run(Variant::Nsgs, 1e-8, 20_000),
-    ] {
-        for (a, b) in default.iter().zip(&other) {
-            assert!((a - b).abs() < 1e-3 * scale, "{a} {b}");
-        }
+    let norm = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0, |norm: f64, x| norm.hypot(x));
+    for (variant, tolerance, max_sweeps) in
+        [(Variant::PLAIN, 1e-5, 200), (Variant::Nsgs, 1e-8, 20_000)]
+    {
+        let other = run(variant, tolerance, max_sweeps);
+        let off = norm(&mut default.iter().zip(&other).map(|(a, b)| a - b));
+        // The eigenvalues of W lie between 5.4 and 122.5: a residual may be 23 times as large in t,
+        // and twice that where friction follows the pressure.
+        let size = norm(&mut default.iter().copied());
+        assert!(
+            off < 50.0 * tolerance * size,
+            "{variant:?}: {off:e} of {size:e}"
+        );
     }
 }

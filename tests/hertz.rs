@@ -69,9 +69,13 @@ fn a_parabola_on_a_plane_carries_the_pressure_of_a_line_contact() {
     let half_width = (4.0 * load * 100.0 / (PI * modulus)).sqrt();
     let peak = 2.0 * load / (PI * half_width);
 
-    assert_near(report.totals.peak_pressure, peak, 1e-3);
+    // No worse than strips of constant pressure: ten of them per half-width miss p₀ by 1.3e-3, and the
+    // pressure in L2 by 0.11/10 (references: computed).
+    let strips = half_width / contacts[1].position[0];
+    assert_near(report.totals.peak_pressure, peak, 0.13 / strips.powi(2));
     assert_eq!(contacts[0].pressure, Some(report.totals.peak_pressure));
-    // ∫ x² p dx / ∫ p dx = a²/4 for p = p₀ √(1 − x²/a²).
+    // ∫ x² p dx / ∫ p dx = a²/4 for p = p₀ √(1 − x²/a²). The body is twenty half-widths high,
+    // (a/L)² = 2e-3, and nodal forces on cells of a/10 put up to (2/3) h²/a² · ½ = 3e-3 on top.
     assert_near(2.0 * mean_square(contacts).sqrt(), half_width, 5e-3);
     for contact in contacts {
         let pressed = contact.pressure.unwrap() > 0.0;
@@ -86,7 +90,10 @@ fn a_parabola_on_a_plane_carries_the_pressure_of_a_line_contact() {
         size += contact.area * hertz * hertz;
     }
     let relative = (error / size).sqrt();
-    assert!(relative < 6e-3, "L2 error of the pressure {relative:e}");
+    assert!(
+        relative < 0.11 / strips,
+        "L2 error of the pressure {relative:e}"
+    );
 }
 
 /// A quarter of a steel block, 12.8 mm, pushed up by `approach` against a rigid sphere, R = 10 mm.
@@ -123,6 +130,8 @@ fn a_block_under_a_sphere_carries_the_pressure_of_a_point_contact() {
     let radius = (3.0 * load * 10.0 / (4.0 * 2.1e5 / 0.91)).cbrt();
     let reference = (3.0 * 1000.0_f64 * 10.0 / (4.0 * 2.1e5 / 0.91)).cbrt();
     assert!((reference - 0.319_125_21).abs() < 1e-8);
+    // Strips of constant pressure, five per half-width, miss p₀ by 0.5 % in the plane (references:
+    // computed; second order); cells miss it along two axes, and their corners more than strips.
     assert_near(
         report.totals.peak_pressure,
         1.5 * load / (PI * radius * radius),
@@ -141,14 +150,15 @@ fn symmetry_planes_may_meet_a_contact_with_friction() {
     let report = certified(&quarter_under_a_sphere(0.01, 0.3));
     let (totals, contacts) = (&report.totals, &report.contacts);
     assert!(totals.stick > 0 && totals.slip > 0, "{totals:?}");
-    // Swapping x and y maps the scene onto itself.
+    // Swapping x and y maps the scene onto itself; certified to 1e-12, two digits for the condition
+    // of G, some 14 contacts across.
     let [f_x, f_y] = [totals.friction[0], totals.friction[1]];
     assert!((f_x - f_y).abs() < 1e-10 * f_x.abs(), "{f_x} {f_y}");
     for contact in contacts {
         // On a symmetry plane nothing slips out of it, and friction has no part there.
         for axis in (0..2).filter(|&axis| contact.position[axis] == 0.0) {
-            assert!(contact.slip[axis].abs() < 1e-18, "{contact:?}");
-            assert!(contact.force[axis].abs() < 1e-9 * totals.normal);
+            assert!(contact.slip[axis].abs() < 1e-16 * 0.01, "{contact:?}");
+            assert!(contact.force[axis].abs() < 1e-15 * totals.normal);
         }
     }
 }

@@ -131,6 +131,7 @@ proptest! {
             if i / 3 == j / 3 { turn[i % 3][j % 3] } else { 0.0 }
         });
         let other = state.transformed(&t);
+        // ε times the condition of G, 75/0.1, twice: the scale of an energy is a force times a length.
         prop_assert!(close(scaled(&other.judged()), scaled(&state.judged()), 1e-10));
     }
 
@@ -155,6 +156,7 @@ proptest! {
 
         let mut off = solution.clone();
         let at = at % off.reaction.len();
+        // The displacement changes by that times 0.1 to 75, the range of eigenvalues of G.
         off.reaction[at] += 1e-6;
         prop_assert!(off.judged().certificate.natural_map > 1e-9);
     }

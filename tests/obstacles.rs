@@ -99,6 +99,9 @@ fn difference(found: &[[f64; 3]], expected: &[[f64; 3]]) -> f64 {
     most.fold(0.0, f64::max) / size.fold(0.0, f64::max)
 }
 
+/// Certified to 1e-12; two digits for the condition of G, about the number of contacts across.
+const SAME: f64 = 1e-10;
+
 fn block_2d(cells: usize) -> Mesh {
     let lines = graded(-1.0, 1.0, cells, 1.0).unwrap();
     rectangle(
@@ -128,7 +131,7 @@ fn check_moved(scene: &Pressing, motions: &[Motion]) {
             .map(|u| motion.turn(u))
             .collect();
         let change = difference(&nodal(&found), &expected);
-        assert!(change < 1e-10, "{change:e}");
+        assert!(change < SAME, "{change:e}");
         let (found, expected) = (found.outcome(), reference.outcome());
         assert_eq!(found.verdict.status, expected.verdict.status);
         assert!(found.work.sweeps.abs_diff(expected.work.sweeps) <= 1);
@@ -225,13 +228,13 @@ fn a_slice_on_a_cylinder_is_the_plane_strain_body_on_its_circle() {
             .displacement_near(0, [position[0], position[2], 0.0])
             .unwrap();
         let (x, z) = (u[0] - expected[0], u[2] - expected[1]);
-        assert!(u[1] == 0.0 && x.hypot(z) < 1e-10 * 0.01, "{position:?}");
+        assert!(u[1] == 0.0 && x.hypot(z) < SAME * 0.01, "{position:?}");
     }
     let (slice, plane) = (
         slice.report().unwrap().totals,
         plane.report().unwrap().totals,
     );
-    assert!((slice.normal / plane.normal - 1.0).abs() < 1e-10);
+    assert!((slice.normal / plane.normal - 1.0).abs() < SAME);
     assert_eq!((slice.stick, slice.slip), (2 * plane.stick, 2 * plane.slip));
 }
 
@@ -252,6 +255,7 @@ fn plane(gap: f64) -> SceneObstacle {
 #[test]
 fn a_gap_of_a_millionth_of_a_millionth_of_the_size_is_none() {
     let flush = displaced(plane(0.0));
+    // 4e-14 m beside displacements of 4e-5 m.
     for gap in [0.04e-12, -0.04e-12] {
         let change = difference(&displaced(plane(gap)), &flush);
         assert!(change < 1e-9, "{change:e}");
@@ -269,8 +273,10 @@ fn a_circle_becomes_a_line_as_its_radius_grows() {
         };
         difference(&displaced(circle), &flat)
     });
+    // One of the twenty contacts that slip may change its state on the way: 5 %. The gap is up to
+    // (20 mm)²/(2R) = 2e-9 m beside displacements of 3e-5 m.
     assert!((coarse / fine - 10.0).abs() < 0.5, "{coarse:e} {fine:e}");
-    assert!(fine < 1e-3);
+    assert!(fine < 1e-4);
 }
 
 #[test]
@@ -286,6 +292,7 @@ fn a_body_fitted_with_interference_carries_its_squeeze() {
     scene.contacts[0].obstacle = Some(plane(-1e-5));
     let report = certified(&scene).report().unwrap();
     let expected = 1.3e11 / (1.0 - 0.04) * 1e-5 / 0.04;
+    // 10 µm as a difference of 40 mm is rounded to 1e-12 of itself.
     for contact in &report.contacts {
         let pressure = contact.pressure.unwrap();
         assert!((pressure / expected - 1.0).abs() < 1e-11, "{contact:?}");

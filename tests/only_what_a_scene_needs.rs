@@ -90,6 +90,8 @@ fn without_friction_there_is_no_tangential_unknown_and_no_friction_program() {
 fn hardly_any_friction_is_no_friction() {
     let (smooth, _) = certified(&square::scene(32, 0.2, 0.0));
     let (hardly, _) = certified(&square::scene(32, 0.2, 1e-12));
+    // A friction of 1e-12 of the pressure, and a certificate of as much, times the condition of G: 32
+    // contacts across.
     assert!(difference(&hardly, &smooth) < 1e-10);
 }
 
@@ -175,6 +177,7 @@ fn an_assumed_contact_surface_may_grow_without_changing_the_answer() {
     ] {
         let (part, report) = certified(&scene);
         let change = difference(&part, &whole);
+        // As above: 1e-12 times the contacts across.
         assert!(change < 1e-10, "{change:e}");
         assert_eq!((report.totals.stick, report.totals.slip), (stick, slip));
         assert!(!rim_is_noted(&report), "{:?}", report.notes);

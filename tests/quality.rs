@@ -156,6 +156,7 @@ fn a_solved_hertz_contact_is_smooth_and_says_so_in_words() {
         .push(serde_json::from_value(hold).unwrap());
     let solution = solve(&scene).unwrap();
     let report = solution.report().unwrap();
+    // (h/a)²/2 is 1e-3 with cells of a twentieth of the half-width, and more towards its ends.
     assert!(
         report.quality.oscillation.unwrap() < 5e-3,
         "{:?}",

@@ -74,6 +74,8 @@ impl Problem {
         )
         .unwrap();
         let scale = largest(load);
+        // The search asks for a million times the load as the contacts feel it, in the norm; R may shrink a load by
+        // some decades on the way there.
         assert!(
             proof.work > 0.0 && proof.least_reaction > 100.0 * scale,
             "{proof:?} {scale}"
@@ -163,6 +165,7 @@ proptest! {
         let held = |factor| matches!(at(factor), Equilibrium::Held { .. });
         match contacts.limit(&fixed, &growing).unwrap() {
             Limit::Finite { factor, .. } => {
+                // Loads are told apart by 1e-11 of their size, and less where the growing load leaves at a flat angle.
                 let margin = 1e-7 * factor.max(1.0);
                 prop_assert!(factor <= margin || held(factor - margin), "{factor}");
                 prop_assert!(!held(factor + margin), "{factor}");

@@ -23,6 +23,7 @@ fn assert_certified(solution: &Solution, name: &str) {
     assert_eq!(solution.status(), Status::Certified, "{name}");
     assert!(certificate.natural_map <= 1e-12, "{name}: {certificate:?}");
     for balance in solution.balances() {
+        // K u sums forces of cells that are larger than the loads by the body's slenderness.
         assert!(balance.equilibrium.scaled < 1e-10, "{name}: {balance:?}");
         assert!(balance.force_defect.scaled < 1e-12, "{name}: {balance:?}");
     }

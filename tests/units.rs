@@ -119,6 +119,7 @@ fn check(scene: &Scene) {
         );
         let (outcome, expected) = (found.outcome(), reference.outcome());
         let of_contact = difference(&outcome.reaction, force, &expected.reaction);
+        // The eight digits that are asked for in any units.
         assert!(of_body < 1e-8 && of_contact < 1e-8, "{scales:?}");
         assert_eq!(outcome.verdict.status, expected.verdict.status);
         let (work, expected) = (outcome.work, expected.work);

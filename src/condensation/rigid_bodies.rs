@@ -9,6 +9,10 @@ use super::{ContactNode, ContactPair, ContactSurface, Floating};
 use crate::body::{self, Body};
 use crate::error::Error;
 
+/// Contacts whose two sides move alike, as those between two faces of one part, feel nothing of a mode but the
+/// round-off of the mortar's weights: displacements below this part of the mode's largest.
+const ROUND_OFF: f64 = 1e-13;
+
 /// Bodies, their contact surface and their free modes, without any stiffness.
 #[derive(Debug)]
 pub struct RigidBodies {
@@ -118,8 +122,16 @@ fn contact_modes(
                 *entry = row.iter().zip(moved).map(|(d, u)| d * u).sum();
             }
         }
+        let felt = modes.col_as_slice_mut(k);
+        if largest(felt) <= ROUND_OFF * largest(mode) {
+            felt.fill(0.0);
+        }
     }
     modes
+}
+
+fn largest(displacements: &[f64]) -> f64 {
+    displacements.iter().fold(0.0, |most, u| u.abs().max(most))
 }
 
 /// Relative displacement of a contact, in global axes, under one mode of body `index`.

@@ -242,9 +242,10 @@ mod tests {
             let load = |pull: f64| pad.load(&[(0, force([pull, -12_000.0], dimension), [0.0; 3])]);
             let reaction = held(&contacts, &load(3564.0));
             let (normal, friction) = sums(&contacts, &reaction);
-            assert!((normal + 12_000.0).abs() < 1e-4 && (friction + 3564.0).abs() < 1e-4);
+            // What is held is to `HELD` of the load, 1e-7 N; a proof is sharp to 1/`FAR` of what is missing.
+            assert!((normal + 12_000.0).abs() < 1e-6 && (friction + 3564.0).abs() < 1e-6);
             let (motion, excess) = impossible(&contacts, &load(3636.0));
-            assert!((excess - 36.0).abs() < 1e-3, "{excess} {motion:?}");
+            assert!((excess - 36.0).abs() < 1e-4, "{excess} {motion:?}");
         }
     }
 

@@ -108,6 +108,7 @@ mod tests {
         let (failure, missing) = failure(&pad.contacts(), &load);
         assert_eq!((failure.sliding.len(), failure.opening.len()), (4, 0));
         assert!(close(&failure.motion, &[1.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        // Of loads of 12 kN, a part of 1e-10.
         assert!((missing - 36.0).abs() < 1e-6, "{missing}");
     }
 

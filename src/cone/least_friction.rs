@@ -117,6 +117,7 @@ mod tests {
             for (mu, slope) in [(1.0, 0.3), (0.5, 1e-4), (0.01, 1.7)] {
                 let (contacts, weight) = incline(dimension, mu, slope, [4.0, 1.0]);
                 let found = multiple(&contacts.least_friction(&weight).unwrap());
+                // On a slope of 1e-4, `HELD` is 1e-7 of the friction that is looked for.
                 assert!((found * mu / slope - 1.0).abs() < 1e-6, "{found}");
             }
         }

@@ -230,6 +230,7 @@ mod tests {
         let x = set
             .minimise(&free, &[], &mut roles, 1e-10, &mut work)
             .unwrap();
+        // The sum is strictly pressed: its error is of the order of the gap, 1e-10.
         assert!((x[0] + x[1] + 2.0).abs() < 1e-8, "{x:?}");
         assert_eq!((roles, work.programs, work.cones), ([Role::Cone; 2], 1, 2));
     }

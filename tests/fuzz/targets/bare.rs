@@ -99,7 +99,7 @@ impl<'a> Arbitrary<'a> for Numbers {
             0 => Settings {
                 tolerance: number(from, true)?,
                 max_sweeps: from.int_in_range(0..=30)?,
-                variant: [Variant::Plain, Variant::Nsgs][usize::from(bool::arbitrary(from)?)],
+                variant: [Variant::PLAIN, Variant::Nsgs][usize::from(bool::arbitrary(from)?)],
             },
             1 => Settings {
                 tolerance: 10_f64.powi(from.int_in_range(-17..=0)?),
