@@ -8,11 +8,11 @@ use serde_json::json;
 const THREADS: [usize; 3] = [1, 2, 16];
 
 /// The cube of `examples/scenes/cube.json`, with other cells.
-fn cube(cells: [usize; 3]) -> Scene {
+fn cube(cells: [usize; 3], kind: &str) -> Scene {
     let side = [0, 1];
     scene(&json!({
         "bodies": [{
-            "mesh": {"box": {"x": side, "y": side, "z": side, "cells": cells}},
+            "mesh": {"box": {"x": side, "y": side, "z": side, "cells": cells, "cell": kind}},
             "materials": [{"young": 1000, "poisson": 0.3}],
             "supports": [{"group": "top", "displacement": [0.0045, 0, -0.01]}]
         }],
@@ -118,7 +118,12 @@ fn assert_repeats(scene: &Scene) {
 
 #[test]
 fn a_dragged_cube_repeats_bit_by_bit() {
-    assert_repeats(&cube([12; 3]));
+    assert_repeats(&cube([12; 3], "hex8"));
+}
+
+#[test]
+fn a_cube_of_quadratic_cells_repeats_bit_by_bit() {
+    assert_repeats(&cube([7, 7, 4], "hex27"));
 }
 
 #[test]
@@ -160,5 +165,5 @@ fn a_sweep_repeats_bit_by_bit() {
 #[test]
 #[ignore = "slow"]
 fn a_wide_block_repeats_bit_by_bit() {
-    assert_repeats(&cube([20, 20, 8]));
+    assert_repeats(&cube([20, 20, 8], "hex8"));
 }

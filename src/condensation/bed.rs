@@ -10,7 +10,7 @@ use super::grounding::Grounding;
 use super::interface::Interface;
 use super::lattice::Lattice;
 use super::supported::SupportedBody;
-use super::{CondensationWork, ContactNode, ContactProblem, ContactSurface, Operator};
+use super::{CondensationWork, ContactNode, ContactProblem, ContactSurface};
 use crate::error::Error;
 
 /// A lattice on a rough bed: contacts at the bottom, supports, a load on every node.
@@ -122,13 +122,13 @@ impl Bed {
             grounding: Grounding::none(),
         };
         let mut work = CondensationWork::default();
-        let (body, of_interface) = supported.condense(&interface.nodes, &mut work)?;
+        let (body, of_interface) = supported.condense(&interface, &mut work)?;
 
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
         let (count, unknowns) = (tangents.len(), body.action.free_displacement.len());
         let mut free = vec![0.0; unknowns];
         interface.add_displacement(&body.action, &mut free);
-        let operator = Operator::from_factor(of_interface);
+        let operator = of_interface.operator()?;
         let problem = ContactProblem::new(
             &tangents,
             vec![0.5; count],

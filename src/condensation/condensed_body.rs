@@ -85,9 +85,13 @@ impl FactoredBody {
     /// (C5).
     fn answer(&self, load: Vec<f64>, prescribed: Vec<Option<f64>>) -> Action {
         let mut half_solved = self.right_hand_side(&load, &prescribed);
-        self.factor.forward(&mut half_solved);
-        let mut solved = half_solved.clone();
-        let free_displacement = self.factor.backward_on_contact(&mut solved).to_vec();
+        let free_displacement = if self.factor.is_bordered() {
+            self.factor.border_displacement(&mut half_solved)
+        } else {
+            self.factor.forward(&mut half_solved);
+            let mut solved = half_solved.clone();
+            self.factor.backward_on_contact(&mut solved).to_vec()
+        };
         Action {
             load,
             prescribed,
@@ -114,17 +118,24 @@ impl FactoredBody {
         self.ordering.dof.iter().map(|&dof| force[dof]).collect()
     }
 
-    /// (C6).
-    fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
-        let ordinary = self.ordering.ordinary();
+    /// x of (C6).
+    fn solve(&self, half_solved: &[f64], forces: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.ordering.unknowns()];
-        x[ordinary..].copy_from_slice(forces);
+        x[self.ordering.ordinary()..].copy_from_slice(forces);
         self.factor.forward_on_contact(&mut x);
-        for (x, y) in x.iter_mut().zip(&action.half_solved) {
+        for (x, y) in x.iter_mut().zip(half_solved) {
             *x += y;
         }
         self.factor.backward(&mut x);
+        x
+    }
 
+    /// (C6), or (C17) with a border.
+    fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
+        let x = match self.factor.is_bordered() {
+            true => self.factor.displacement_under(&action.half_solved, forces),
+            false => self.solve(&action.half_solved, forces),
+        };
         let mut displacement = vec![0.0; action.load.len()];
         for (&dof, &value) in self.ordering.dof.iter().zip(&x) {
             displacement[dof] = value;

@@ -9,10 +9,12 @@
 //! Supernodes are blocks of columns with one pattern, each a dense matrix: rows of its
 //! own columns first, then the rows of its pattern.
 
+use std::ops::Range;
 use std::time::Instant;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
+use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::{
     prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
 };
@@ -21,12 +23,13 @@ use faer::sparse::linalg::cholesky::supernodal::{
     factorize_supernodal_numeric_llt_scratch, factorize_supernodal_symbolic_cholesky,
     factorize_supernodal_symbolic_cholesky_scratch,
 };
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::{Mat, get_global_parallelism};
+use faer::{Mat, MatRef, get_global_parallelism};
 use sprs::CsMat;
 
+use super::border::BorderRow;
+use super::columns::Columns;
 use super::frames::Frames;
-use super::ordering::{HELD, Ordering};
+use super::ordering::Ordering;
 
 /// A pivot this small against the diagonal entry it is left of is round-off.
 const SINGULAR: f64 = 1e-14;
@@ -47,25 +50,32 @@ pub(crate) enum Breakdown {
     },
 }
 
-/// `P K' Pᵀ = L Lᵀ`, contact unknowns last.
+/// `P K' Pᵀ = L Lᵀ`, contact unknowns last; or bordered by what contacts see of it (C17).
 #[derive(Debug)]
 pub(crate) struct Factor {
     pub(super) symbolic: SymbolicSupernodalCholesky<usize>,
     pub(super) values: Vec<f64>,
     contact_unknowns: usize,
+    bordered: bool,
     /// Wall time of the numeric factorisation alone, in second.
     pub(crate) numeric_seconds: f64,
 }
 
 impl Factor {
-    /// Factorises the stiffness of the supported body.
+    /// Factorises the stiffness of the supported body, with a border where that has rows.
     pub(crate) fn new(
         stiffness: &CsMat<f64>,
         frames: &Frames,
         ordering: &Ordering,
+        border: &[BorderRow],
     ) -> Result<Self, Breakdown> {
-        let symbolic = analyse(stiffness, frames, ordering)?;
-        let lower = Columns::new(stiffness, frames, ordering, |row, column| row >= column);
+        let columns = |keep: fn(usize, usize) -> bool| {
+            let mut columns = Columns::new(stiffness, frames, ordering, keep);
+            columns.surround(ordering, border, keep);
+            columns
+        };
+        let symbolic = analyse(&columns(|row, column| row <= column))?;
+        let lower = columns(|row, column| row >= column);
         let start = Instant::now();
         // Asked for first, because `vec!` ends the program where there is no memory.
         Vec::<f64>::new()
@@ -76,14 +86,17 @@ impl Factor {
         let factor = Self {
             symbolic,
             values,
-            contact_unknowns: ordering.contact_unknowns,
+            contact_unknowns: ordering.contact_unknowns + border.len(),
+            bordered: !border.is_empty(),
             numeric_seconds: start.elapsed().as_secs_f64(),
         };
         match result? {
             None => factor.check_pivots(&lower, ordering)?,
             Some(column) => {
+                // In the border it is an overflow of all that came before.
+                let dof = ordering.dof.get(column).or(ordering.dof.last());
                 return Err(Breakdown::Pivot {
-                    dof: ordering.dof[column],
+                    dof: dof.copied().unwrap_or_default(),
                     pivot: f64::NAN,
                     diagonal: lower.diagonal(column),
                 });
@@ -92,7 +105,12 @@ impl Factor {
         Ok(factor)
     }
 
-    /// Number of unknowns.
+    /// Contacts see it over a border (C17).
+    pub(crate) fn is_bordered(&self) -> bool {
+        self.bordered
+    }
+
+    /// Number of unknowns, with the rows of the border.
     pub(crate) fn unknowns(&self) -> usize {
         self.symbolic.nrows()
     }
@@ -102,7 +120,7 @@ impl Factor {
         self.values.len()
     }
 
-    /// Number of contact unknowns, the last ones.
+    /// Number of contact unknowns or rows of the border, the last ones.
     pub(crate) fn contact_unknowns(&self) -> usize {
         self.contact_unknowns
     }
@@ -135,6 +153,11 @@ impl Factor {
         ends.partition_point(|&end| end <= ordinary)
     }
 
+    /// The supernodes that hold an ordinary unknown, and perhaps one more.
+    pub(super) fn ordinary_supernodes(&self) -> Range<usize> {
+        0..(self.first_contact_supernode() + 1).min(self.symbolic.n_supernodes())
+    }
+
     /// Supernode number `index`.
     pub(super) fn supernode(&self, index: usize) -> Supernode<'_> {
         let symbolic = self.symbolic.supernode(index);
@@ -152,7 +175,8 @@ impl Factor {
     fn check_pivots(&self, lower: &Columns, ordering: &Ordering) -> Result<(), Breakdown> {
         for index in 0..self.symbolic.n_supernodes() {
             let supernode = self.supernode(index);
-            for own in 0..supernode.width {
+            // Those of a border are what C is.
+            for own in 0..supernode.width_before(ordering.unknowns()) {
                 let pivot = supernode.column(own)[own].powi(2);
                 let column = supernode.start + own;
                 let diagonal = lower.diagonal(column);
@@ -186,69 +210,34 @@ impl<'a> Supernode<'a> {
         self.width + self.pattern.len()
     }
 
+    /// Number of its columns before an unknown; they come first.
+    pub(super) fn width_before(&self, unknown: usize) -> usize {
+        unknown.saturating_sub(self.start).min(self.width)
+    }
+
+    /// Its rows from an unknown on, counted from there: they are the last ones.
+    pub(super) fn rows_from(&self, unknown: usize) -> Vec<usize> {
+        let own = self.start..self.start + self.width;
+        let rows = own.chain(self.pattern.iter().copied());
+        rows.filter_map(|row| row.checked_sub(unknown)).collect()
+    }
+
+    /// Its first columns, as many as `columns`, in the last rows, as many as `rows`.
+    pub(super) fn lowest(&self, rows: usize, columns: usize) -> MatRef<'a, f64> {
+        let values = &self.values[self.height() - rows..];
+        MatRef::from_column_major_slice_with_stride(values, rows, columns, self.height())
+    }
+
     /// One of its columns.
     pub(super) fn column(&self, own: usize) -> &'a [f64] {
         &self.values[own * self.height()..(own + 1) * self.height()]
     }
 }
 
-/// Part of `P K' Pᵀ` by columns; rows unsorted, repeated entries add up.
-struct Columns {
-    starts: Vec<usize>,
-    rows: Vec<usize>,
-    values: Vec<f64>,
-}
-
-impl Columns {
-    /// The entries with `keep(row, column)`.
-    fn new(
-        stiffness: &CsMat<f64>,
-        frames: &Frames,
-        ordering: &Ordering,
-        keep: impl Fn(usize, usize) -> bool,
-    ) -> Self {
-        let guess = (stiffness.nnz() + stiffness.rows()) / 2;
-        let mut columns = Self {
-            starts: vec![0],
-            rows: Vec::with_capacity(guess),
-            values: Vec::with_capacity(guess),
-        };
-        for (column, &dof) in ordering.dof.iter().enumerate() {
-            // K' is symmetric: its row is its column.
-            frames.visit_row(stiffness, dof, |other, value| {
-                let row = ordering.position[other];
-                if row != HELD && keep(row, column) {
-                    columns.rows.push(row);
-                    columns.values.push(value);
-                }
-            });
-            columns.starts.push(columns.rows.len());
-        }
-        columns
-    }
-
-    fn pattern(&self) -> SymbolicSparseColMatRef<'_, usize> {
-        let size = self.starts.len() - 1;
-        SymbolicSparseColMatRef::new_unsorted_checked(size, size, &self.starts, None, &self.rows)
-    }
-
-    fn diagonal(&self, column: usize) -> f64 {
-        (self.starts[column]..self.starts[column + 1])
-            .filter(|&entry| self.rows[entry] == column)
-            .map(|entry| self.values[entry])
-            .sum()
-    }
-}
-
 /// Where L has entries, in supernodes.
-fn analyse(
-    stiffness: &CsMat<f64>,
-    frames: &Frames,
-    ordering: &Ordering,
-) -> Result<SymbolicSupernodalCholesky<usize>, Breakdown> {
-    let upper = Columns::new(stiffness, frames, ordering, |row, column| row <= column);
+fn analyse(upper: &Columns) -> Result<SymbolicSupernodalCholesky<usize>, Breakdown> {
     let pattern = upper.pattern();
-    let size = ordering.unknowns();
+    let size = pattern.ncols();
     let mut tree = vec![0_isize; size];
     let mut counts = vec![0_usize; size];
     let scratch = prefactorize_symbolic_cholesky_scratch::<usize>(size, upper.rows.len());

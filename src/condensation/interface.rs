@@ -7,14 +7,21 @@
 //!
 //! A contact's own node enters with weight one, or the nodes around it with those of (C16), a node
 //! of the opposite side with minus its mortar weight. A row of B_k is that weight times the contact's direction, in the
-//! axes of the node.
+//! axes of the node. Where the nodes have many more displacements than the contacts see of them, what
+//! these see are the interface unknowns, and B_k goes into the body (C17).
 
 use std::collections::BTreeMap;
 
 use faer::Mat;
 
 use super::action::Action;
+use super::border::BorderRow;
 use super::{ContactNode, ContactSurface};
+
+/// How many times as many unknowns the nodes have as the contacts that move with them, for a body to
+/// be condensed onto these (C17): dense work falls by its third power, while the factor gets as
+/// many rows more.
+const MANY: usize = 2;
 
 /// A node of a body whose displacement the contact problem needs.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +37,9 @@ pub(crate) struct InterfaceNode {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Interface {
     pub(crate) nodes: Vec<InterfaceNode>,
+    /// Rows of B over the body, each an interface unknown in place of the nodes' displacements
+    /// (C17); none if the nodes have not many more.
+    pub(crate) border: Vec<BorderRow>,
     /// B_k: `(interface unknown, coefficient)` per unknown of the contact problem.
     rows: Vec<Vec<(usize, f64)>>,
     /// Where supports prescribe part of û: `(degree of freedom, coefficient)` per unknown of
@@ -66,6 +76,7 @@ impl Interface {
         }
         let size = offsets[surface.nodes.len()];
         let (mut rows, mut given) = (vec![Vec::new(); size], vec![Vec::new(); size]);
+        let mut seen = vec![BorderRow::new(); size];
         let mut unknowns = 0;
         for interface in &nodes {
             let held = held(interface.node);
@@ -74,8 +85,13 @@ impl Interface {
                     let at = offsets[contact] + row;
                     for (axis, held) in held.iter().enumerate() {
                         let coefficient = weight * direction[axis];
-                        if held.is_some() && coefficient != 0.0 {
-                            given[at].push((interface.node * dimension + axis, coefficient));
+                        if coefficient != 0.0 && axis < dimension {
+                            let part = if held.is_some() {
+                                &mut given
+                            } else {
+                                &mut seen
+                            };
+                            part[at].push((interface.node * dimension + axis, coefficient));
                         }
                     }
                     for (kept, axis) in interface.frame[..interface.kept].iter().enumerate() {
@@ -88,11 +104,37 @@ impl Interface {
             }
             unknowns += interface.kept;
         }
-        Self {
+        let mut interface = Self {
             nodes,
+            border: Vec::new(),
             rows,
             given,
             unknowns,
+        };
+        let bordering = seen.iter().filter(|row| !row.is_empty()).count();
+        if MANY * bordering <= unknowns {
+            interface.look_over(seen);
+        }
+        interface
+    }
+
+    /// Takes what the contacts see of the body for the interface unknowns.
+    fn look_over(&mut self, seen: Vec<BorderRow>) {
+        for (row, seen) in self.rows.iter_mut().zip(seen) {
+            row.clear();
+            if !seen.is_empty() {
+                row.push((self.border.len(), 1.0));
+                self.border.push(seen);
+            }
+        }
+        self.unknowns = self.border.len();
+    }
+
+    /// The nodes whose displacements are interface unknowns.
+    pub(super) fn condensed_nodes(&self) -> &[InterfaceNode] {
+        match self.border.is_empty() {
+            true => &self.nodes,
+            false => &[],
         }
     }
 

@@ -17,7 +17,8 @@
 //! | what a deformable other side is to the contact nodes (C7)–(C10) | `mortar` |
 //! | the stiffness in the contact's axes (C4) | `frames` |
 //! | order of elimination, contact last | `ordering`, `elimination_tree` |
-//! | factor, trailing block (C2), substitutions | `factor`, `substitution` |
+//! | factor, trailing block (C2), substitutions | `columns`, `factor`, `substitution` |
+//! | where contacts see less than their nodes: a border (C17) | `border` |
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `action`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `floating`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6) | `condensed_body` |
@@ -26,6 +27,8 @@
 mod action;
 #[cfg(test)]
 mod bed;
+mod border;
+mod columns;
 mod condensed;
 mod condensed_body;
 mod elimination_tree;

@@ -6,8 +6,8 @@
 //! the softer side is there for every contact, whatever the meshes.
 //!
 //! Along an axis that supports hold on both sides nothing moves, so a contact has no unknown
-//! there; on a symmetry plane its normal lies in the plane, as if mirrored facets went on
-//! beyond it.
+//! there; on a symmetry plane its normal lies in the plane, and its weights are those of the node
+//! in the whole, as if mirrored facets went on beyond it.
 
 use std::collections::HashSet;
 
@@ -138,7 +138,7 @@ fn contacts(
 ) -> Result<PairSurface, Error> {
     let (body, across) = (&scene.bodies[own.body], &scene.bodies[other.body]);
     let dimension = body.mesh.dimension;
-    let coupled = mortar::couple(
+    let coupled = mortar::average(
         &body.mesh,
         &own.facets,
         &across.mesh,
@@ -153,9 +153,7 @@ fn contacts(
             left_out.push(node.node);
             continue;
         };
-        if normal != node.normal {
-            node.look_along(normal, &body.mesh, &across.mesh);
-        }
+        node.look_along(normal, still, &body.mesh, &across.mesh);
         let Stance::Free { frame, kept } = Stance::new(dimension, normal, still) else {
             left_out.push(node.node);
             continue;

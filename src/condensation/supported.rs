@@ -5,13 +5,13 @@ use std::time::Instant;
 use faer::Mat;
 use sprs::CsMat;
 
-use super::CondensationWork;
 use super::condensed_body::{CondensedBody, FactoredBody};
 use super::factor::{Breakdown, Factor};
 use super::frames::Frames;
 use super::grounding::Grounding;
-use super::interface::InterfaceNode;
+use super::interface::{Interface, InterfaceNode};
 use super::ordering::{Ordering, Role};
+use super::{CondensationWork, Operator};
 use crate::error::Error;
 
 /// The assembled body, before it is condensed.
@@ -25,31 +25,55 @@ pub(super) struct SupportedBody<'a> {
     pub(super) grounding: Grounding,
 }
 
+/// What a body is for its interface, as the factor gives it.
+pub(super) enum OfInterface {
+    /// `L_cc` of (C2).
+    Factor(Mat<f64>),
+    /// G of (C17).
+    Compliance(Mat<f64>),
+}
+
+impl OfInterface {
+    /// G; it costs a triangular inverse and half a product where there is a factor.
+    pub(super) fn operator(self) -> Result<Operator, Error> {
+        match self {
+            Self::Factor(factor) => Ok(Operator::from_factor(factor)),
+            Self::Compliance(compliance) => Operator::from_bodies(compliance),
+        }
+    }
+}
+
 impl SupportedBody<'_> {
-    /// Orders, factorises and condenses onto the interface; `L_cc` of (C2) comes with the body.
+    /// Orders, factorises and condenses onto the interface.
     pub(super) fn condense(
         self,
-        interface: &[InterfaceNode],
+        interface: &Interface,
         work: &mut CondensationWork,
-    ) -> Result<(CondensedBody, Mat<f64>), Error> {
+    ) -> Result<(CondensedBody, OfInterface), Error> {
         let start = Instant::now();
-        let frames = Frames::new(self.dimension, self.nodes.len(), interface);
-        let (roles, contact) = self.roles(interface);
+        let nodes = interface.condensed_nodes();
+        let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
+        let (roles, contact) = self.roles(nodes);
         let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
             .ok_or_else(|| self.too_large("ordering"))?;
         work.ordering_seconds += start.elapsed().as_secs_f64();
 
         let start = Instant::now();
-        let factor = Factor::new(&self.grounding.ground(&self.stiffness), &frames, &ordering)
+        let grounded = self.grounding.ground(&self.stiffness);
+        let factor = Factor::new(&grounded, &frames, &ordering, &interface.border)
             .map_err(|breakdown| self.explain(breakdown))?;
         work.factorisation_seconds += start.elapsed().as_secs_f64();
         work.numeric_seconds += factor.numeric_seconds;
         work.factorisations += 1;
-        work.unknowns += factor.unknowns();
+        work.unknowns += ordering.unknowns();
+        work.condensed_unknowns += factor.contact_unknowns();
         work.factor_entries += factor.entries();
 
         let start = Instant::now();
-        let of_interface = factor.trailing_block();
+        let of_interface = match factor.is_bordered() {
+            true => OfInterface::Compliance(factor.border_compliance()),
+            false => OfInterface::Factor(factor.trailing_block()),
+        };
         let factored = FactoredBody {
             stiffness: self.stiffness,
             frames,

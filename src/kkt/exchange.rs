@@ -6,7 +6,8 @@
 //!
 //! Mortar weights add up to one, so forces cancel whatever the meshes. Moments cancel up to
 //! gap × friction: displacements are small, each side is loaded where it stood before, and
-//! a friction force acts on the two sides along parallel lines, an initial gap g₀ apart.
+//! a friction force acts on the two sides along parallel lines, an initial gap g₀ apart. Where curved
+//! sides end at a symmetry plane, their moments cancel with those of the mirror image only.
 
 use super::resultant::{Defect, Resultant, length};
 use super::sides::{block, check_sides, check_surface, global_force, shares};

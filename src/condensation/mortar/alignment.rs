@@ -10,7 +10,9 @@
 //! δ_k = −τ_k · (Σ_k τ_k τ_kᵀ)⁻¹ v_T
 //! ```
 //!
-//! By duality a rigid rotation of both sides then opens no contact (C10).
+//! By duality a rigid rotation of both sides then opens no contact (C10). Along an axis that
+//! supports hold on both sides, as across a symmetry plane, no rotation goes, and the mirror image
+//! has the opposite `v`: what is left of it there is none of the whole, and stays.
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
@@ -21,16 +23,20 @@ const LARGEST: f64 = 0.1;
 /// Spread of the positions, relative to the largest, that is none.
 const RANK: f64 = 1e-10;
 
-/// Corrects the weights in place; positions of side 2 in metre.
+/// Corrects the weights in place; positions of side 2 in metre, nothing moves along `still` axes.
 pub(super) fn align(
     weights: &mut [(usize, f64)],
     positions: &[[f64; 3]],
     from: [f64; 3],
     normal: Vector3<f64>,
-    dimension: usize,
+    still: [bool; 3],
 ) {
-    let axes = tangents(normal, dimension);
-    let across = |vector: Vector3<f64>| Vector2::from(axes.map(|axis| axis.dot(&vector)));
+    let axes = tangents(normal);
+    let moving = Vector3::from(still.map(|still| if still { 0.0 } else { 1.0 }));
+    let across = |vector: Vector3<f64>| {
+        let vector = vector.component_mul(&moving);
+        Vector2::from(axes.map(|axis| axis.dot(&vector)))
+    };
     // Relative to x: large coordinates shall not cost digits.
     let offsets = weights
         .iter()
@@ -70,11 +76,8 @@ fn solve(spread: Matrix2<f64>, stray: Vector2<f64>) -> Vector2<f64> {
     multiplier
 }
 
-/// Two unit vectors across the normal; in 2D the second is zero.
-fn tangents(normal: Vector3<f64>, dimension: usize) -> [Vector3<f64>; 2] {
-    if dimension == 2 {
-        return [Vector3::z().cross(&normal), Vector3::zeros()];
-    }
+/// Two unit vectors across the normal.
+fn tangents(normal: Vector3<f64>) -> [Vector3<f64>; 2] {
     let mut least = Vector3::zeros();
     least[normal.abs().imin()] = 1.0;
     let first = normal.cross(&least).normalize();
@@ -105,7 +108,7 @@ mod tests {
         // Equal weights act at (½, ½); the node is at (0.52, 0.47).
         let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
         let (from, normal) = (Vector3::new(0.52, 0.47, 0.0), Vector3::z());
-        align(&mut weights, &SQUARE, from.into(), normal, 3);
+        align(&mut weights, &SQUARE, from.into(), normal, [false; 3]);
         assert!(stray(&weights, from, normal).norm() < 1e-16);
         assert!((weights.iter().map(|entry| entry.1).sum::<f64>() - 1.0).abs() < 1e-15);
         // Least change: δ = ±½ · (0.02, −0.03) along x and y.
@@ -119,7 +122,7 @@ mod tests {
     fn nodes_on_one_line_take_what_they_can() {
         let mut weights = [(0, 0.5), (1, 0.5)];
         let (from, normal) = (Vector3::new(0.52, 0.03, 0.0), Vector3::z());
-        align(&mut weights, &SQUARE, from.into(), normal, 3);
+        align(&mut weights, &SQUARE, from.into(), normal, [false; 3]);
         let left = stray(&weights, from, normal);
         assert!(
             (left - Vector3::new(0.0, -0.03, 0.0)).norm() < 1e-15,
@@ -128,12 +131,47 @@ mod tests {
     }
 
     #[test]
+    fn across_a_symmetry_plane_weights_stay_and_within_it_they_follow() {
+        let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
+        let (from, normal) = (Vector3::new(0.52, 0.47, 0.0), Vector3::z());
+        align(
+            &mut weights,
+            &SQUARE,
+            from.into(),
+            normal,
+            [true, false, false],
+        );
+        let left = stray(&weights, from, normal);
+        assert!(
+            (left - Vector3::new(-0.02, 0.0, 0.0)).norm() < 1e-16,
+            "{left}"
+        );
+        // Least change: δ = ±½ · 0.03 along y.
+        assert!((weights[0].1 - 0.265).abs() < 1e-15, "{weights:?}");
+        let before = weights;
+        align(
+            &mut weights,
+            &SQUARE,
+            from.into(),
+            normal,
+            [true, true, false],
+        );
+        assert_eq!(weights, before);
+    }
+
+    #[test]
     fn weights_far_beside_the_line_stay() {
         let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
-        align(&mut weights, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), 3);
+        align(
+            &mut weights,
+            &SQUARE,
+            [0.9, 0.5, 0.0],
+            Vector3::z(),
+            [false; 3],
+        );
         assert_eq!(weights, [0, 1, 2, 3].map(|k| (k, 0.25)));
         let mut one = [(2, 1.0)];
-        align(&mut one, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), 3);
+        align(&mut one, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), [false; 3]);
         assert_eq!(one, [(2, 1.0)]);
     }
 }

@@ -46,6 +46,23 @@ pub fn couple(
     model: Model,
     place: &str,
 ) -> Result<Mortar, Error> {
+    let mut mortar = average(mesh1, facets1, mesh2, facets2, model, place)?;
+    for node in &mut mortar.nodes {
+        node.look_along(node.normal, [false; 3], mesh1, mesh2);
+    }
+    Ok(mortar)
+}
+
+/// The same up to (C9): weights and mean normals, but no gaps. What supports hold may still turn
+/// a normal ([`MortarNode::look_along`]).
+pub(in crate::condensation) fn average(
+    mesh1: &Mesh,
+    facets1: &[Facet],
+    mesh2: &Mesh,
+    facets2: &[Facet],
+    model: Model,
+    place: &str,
+) -> Result<Mortar, Error> {
     if mesh1.dimension != mesh2.dimension {
         return Err(Error::WrongDimension {
             place: format!("{place}.opposite"),
@@ -86,7 +103,7 @@ pub fn couple(
     let same_mesh = std::ptr::eq(mesh1, mesh2);
     let mut mortar = Mortar::default();
     for share in gathered.shares {
-        let node = share.contact(mesh1, mesh2, place)?;
+        let node = share.contact(place)?;
         // A node that both faces share, as at the tip of a crack, has nothing to touch.
         let itself = |node: &MortarNode| {
             let mut others = node.opposite.iter().filter(|entry| entry.0 != node.node);
@@ -171,10 +188,12 @@ impl Gathered {
 }
 
 impl MortarNode {
-    /// Makes a unit vector the normal: the weights follow (C10), and the gap.
+    /// Makes a unit vector the normal: the weights follow (C10), and the gap. Across it, axes may
+    /// be `still`: nothing moves along them.
     pub(in crate::condensation) fn look_along(
         &mut self,
         normal: [f64; 3],
+        still: [bool; 3],
         mesh1: &Mesh,
         mesh2: &Mesh,
     ) {
@@ -184,13 +203,7 @@ impl MortarNode {
             .sum();
         let direction = Vector3::from(normal);
         let weights = &mut self.opposite;
-        align(
-            weights,
-            &mesh2.nodes,
-            centre.into(),
-            direction,
-            mesh1.dimension,
-        );
+        align(weights, &mesh2.nodes, centre.into(), direction, still);
         let x = centre;
         let terms = self.opposite.iter();
         let gap_vector: Vector3<f64> = terms
@@ -204,7 +217,7 @@ impl MortarNode {
 
 impl Share {
     /// The contact of the node (C9); none if nothing covers it.
-    fn contact(self, mesh1: &Mesh, mesh2: &Mesh, place: &str) -> Result<Option<MortarNode>, Error> {
+    fn contact(self, place: &str) -> Result<Option<MortarNode>, Error> {
         if self.weight <= VANISHING * self.support {
             return Ok(None);
         }
@@ -215,7 +228,7 @@ impl Share {
                 accepted: "facets around a node that do not look opposite ways",
             });
         };
-        let mut node = MortarNode {
+        Ok(Some(MortarNode {
             node: self.node,
             own: means(self.own),
             weight: self.weight,
@@ -224,9 +237,7 @@ impl Share {
             gap_vector: [0.0; 3],
             initial_gap: 0.0,
             covered: (self.weight / self.support).min(1.0),
-        };
-        node.look_along(normal.into(), mesh1, mesh2);
-        Ok(Some(node))
+        }))
     }
 }
 

@@ -15,6 +15,9 @@
 //! facet that the other side covers, so a face that overhangs still carries a constant
 //! pressure exactly.
 //!
+//! (C10) is what keeps moments: forces and reactions meet on one line. On a symmetry plane the mirror
+//! image does that, and across the plane the weights stay as they are.
+//!
 //! Quadratic facets of side 1 carry the dual multipliers of the linear `φ_j` at their corners
 //! (C16); those of side 2 enter by their own `N²_k`.
 //!
@@ -55,6 +58,7 @@ mod several_faces;
 mod sides;
 mod view;
 
+pub(in crate::condensation) use coupling::average;
 pub use coupling::couple;
 
 /// The contact nodes of side 1, each with the nodes of side 2 that it meets.
