@@ -54,6 +54,25 @@ impl CattaneoMindlin {
     }
 }
 
+/// How far a point contact's bodies move past each other far from it, along Q, in metre (E5):
+/// Mindlin's δ_t, for a tangential load Q in newton and the bodies'
+/// [`tangential_compliance`](super::tangential_compliance) Θ in 1/Pa.
+///
+/// # Errors
+///
+/// [`Error::OutOfRange`] unless `μ > 0`, `0 <= Q < μ P` and `Θ > 0`.
+pub fn mindlin_displacement(
+    hertz: &HertzSphere,
+    friction: f64,
+    tangential: f64,
+    compliance: f64,
+) -> Result<f64, Error> {
+    let unused = unused(hertz.load, friction, tangential)?;
+    let compliance = positive("compliance", compliance)?;
+    let most = 3.0 * friction * hertz.load * compliance / (16.0 * hertz.contact_radius);
+    Ok(most * (1.0 - unused.cbrt().powi(2)))
+}
+
 /// 1 − Q/(μ P).
 fn unused(load: f64, friction: f64, tangential: f64) -> Result<f64, Error> {
     let most = positive("friction", friction)? * load;
@@ -110,6 +129,27 @@ mod tests {
         assert_eq!(found.shear(1.1 * a), 0.0);
         let none = CattaneoMindlin::line(&line, 0.4, 0.0).unwrap();
         assert_eq!((none.stick_ratio, none.shear(0.3 * a)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn the_middle_moves_as_under_the_point_forces_of_its_shear() {
+        // A point force Q moves the surface by u_x = Q/(2πG) [(1 − ν)/r + ν x²/r³]; over a shear
+        // that depends on r alone, in the middle: (2 − ν)/(2G) ∫ q dr on each side.
+        let (friction, compliance) = (0.4, 0.7);
+        let sphere = HertzSphere::new(3.0, 7.0, 11.0).unwrap();
+        for part in [0.1, 0.5, 0.9] {
+            let pull = part * friction * sphere.load;
+            let exact = CattaneoMindlin::sphere(&sphere, friction, pull).unwrap();
+            let across = over_width(exact.contact_radius, |x| exact.shear(x.abs()));
+            let found = mindlin_displacement(&sphere, friction, pull, compliance).unwrap();
+            assert_close(found, compliance / 2.0 * across / 2.0, 1e-5);
+        }
+        // As long as hardly anything slips: δ_t = Q Θ/(8 a).
+        let little = mindlin_displacement(&sphere, friction, 1e-6, compliance).unwrap();
+        let stuck = 1e-6 * compliance / (8.0 * sphere.contact_radius);
+        assert_close(little, stuck, 1e-6);
+        assert!(mindlin_displacement(&sphere, friction, 1.3, compliance).is_err());
+        assert!(mindlin_displacement(&sphere, friction, 1.0, 0.0).is_err());
     }
 
     #[test]

@@ -1,11 +1,13 @@
 //! CLOSED FORMS: answers that need no mesh, to hold computed ones against.
 //!
 //! ```text
-//! (E1)  1/E* = (1−ν₁²)/E₁ + (1−ν₂²)/E₂,   1/R = 1/R₁ + 1/R₂                    moduli.rs
+//! (E1)  1/E* = (1−ν₁²)/E₁ + (1−ν₂²)/E₂,   1/R = 1/R₁ + 1/R₂,
+//!       Θ = (2−ν₁)/G₁ + (2−ν₂)/G₂                                              moduli.rs
 //! (E2)  β = [(1−2ν₁)/G₁ − (1−2ν₂)/G₂] / (2 [(1−ν₁)/G₁ + (1−ν₂)/G₂])           moduli.rs
 //! (E3)  a = √(4 P R/(π E*)),  p₀ = 2 P/(π a),  p = p₀ √(1 − x²/a²)             hertz_line.rs
 //! (E4)  a = (3 P R/(4 E*))^⅓,  p₀ = 3 P/(2 π a²),  δ = a²/R                    hertz_sphere.rs
 //! (E5)  c/a = (1 − Q/(μ P))^n,  q = μ (p₀/a) [√(a²−x²) − √(c²−x²)]             cattaneo_mindlin.rs
+//!       round: δ_t = 3 μ P Θ/(16 a) [1 − (1 − Q/(μ P))^⅔]                      cattaneo_mindlin.rs
 //! (E6)  p = P/(π √(a²−x²)),   p = P/(2 π a √(a²−r²)),  δ = P/(2 a E*)          flat_punch.rs
 //! (E7)  K(k) = π/(2 agm(1, √(1−k²)))                                           elliptic.rs
 //! (E8)  μ = β K(c)/K(c'),     μ = β ln((1+c)/(1−c))/(2 c K(c')),  c' = √(1−c²)  stick_ratio.rs
@@ -44,13 +46,13 @@ mod uniform_patch;
 mod wedge;
 
 pub use boussinesq::Boussinesq;
-pub use cattaneo_mindlin::CattaneoMindlin;
+pub use cattaneo_mindlin::{CattaneoMindlin, mindlin_displacement};
 pub use elliptic::elliptic_k;
 pub use flat_punch::{FlatLinePunch, FlatRoundPunch};
 pub use hertz_line::HertzLine;
 pub use hertz_sphere::HertzSphere;
 pub use incline::Incline;
-pub use moduli::{Elastic, contact_modulus, contact_radius, dundurs_beta};
+pub use moduli::{Elastic, contact_modulus, contact_radius, dundurs_beta, tangential_compliance};
 pub use stick_ratio::{friction_of_stick_line, friction_of_stick_sphere};
 pub use stick_ratio::{stick_ratio_line, stick_ratio_sphere};
 pub use uniform_patch::uniform_strain;

@@ -1,4 +1,4 @@
-//! What two touching bodies are to each other: composite modulus, composite radius, coupling.
+//! What two touching bodies are to each other: composite moduli, composite radius, coupling.
 
 use super::range::{positive, within};
 use crate::error::Error;
@@ -42,6 +42,19 @@ pub fn contact_modulus(one: Elastic, other: Option<Elastic>) -> Result<f64, Erro
         compliance += other.check()?.plane_compliance();
     }
     Ok(1.0 / compliance)
+}
+
+/// Tangential compliance Θ of a body on another one, or on a rigid one (`None`), in 1/Pa (E1).
+///
+/// # Errors
+///
+/// [`Error::OutOfRange`] for a material that is none.
+pub fn tangential_compliance(one: Elastic, other: Option<Elastic>) -> Result<f64, Error> {
+    let of = |material: Elastic| -> Result<f64, Error> {
+        let material = material.check()?;
+        Ok((2.0 - material.poisson) * material.shear_compliance())
+    };
+    Ok(of(one)? + other.map_or(Ok(0.0), of)?)
 }
 
 /// Composite radius R of two convex surfaces, in metre (E1); infinite for a plane, negative for a
@@ -109,6 +122,18 @@ mod tests {
     }
 
     #[test]
+    fn tangential_compliance_is_that_of_both_bodies() {
+        // ν = 0, E = 2: G = 1 and Θ = 2 on each side.
+        let cork = Elastic {
+            young: 2.0,
+            poisson: 0.0,
+        };
+        assert_close(tangential_compliance(cork, Some(cork)).unwrap(), 4.0, 1e-15);
+        let steel = 1.7 * 2.6 / 210e3;
+        assert_close(tangential_compliance(STEEL, None).unwrap(), steel, 1e-14);
+    }
+
+    #[test]
     fn a_sphere_in_a_socket_has_the_difference_of_curvatures() {
         assert_close(contact_radius(10.0, f64::INFINITY).unwrap(), 10.0, 1e-15);
         assert_close(contact_radius(10.0, 10.0).unwrap(), 5.0, 1e-15);
@@ -141,6 +166,8 @@ mod tests {
         for (young, poisson) in [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.6), (1.0, f64::NAN)] {
             let none = Elastic { young, poisson };
             assert!(contact_modulus(none, None).is_err());
+            assert!(tangential_compliance(none, Some(STEEL)).is_err());
+            assert!(tangential_compliance(STEEL, Some(none)).is_err());
             assert!(dundurs_beta(STEEL, Some(none)).is_err());
         }
     }

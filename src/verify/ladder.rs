@@ -19,6 +19,11 @@ impl Measured {
         }
     }
 
+    /// Value found over value known; a NaN for a field.
+    pub(super) fn ratio(&self) -> f64 {
+        self.values.map_or(f64::NAN, |[found, known]| found / known)
+    }
+
     /// A field by the relative norm of its error.
     pub(super) fn field(error: f64) -> Self {
         let values = None;

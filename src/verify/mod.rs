@@ -20,6 +20,7 @@ mod hertz_sphere;
 mod incline;
 mod konter;
 mod ladder;
+mod mindlin_sphere;
 mod pad;
 mod scenes;
 mod ssnv128;
@@ -45,7 +46,7 @@ struct Entry {
     measure: fn(quick: bool) -> Result<Vec<VerifiedQuantity>, Error>,
 }
 
-const GALLERY: [Entry; 13] = [
+const GALLERY: [Entry; 14] = [
     uniform_patch::ENTRY,
     two_blocks::ENTRY,
     ssnv128::ENTRY,
@@ -55,6 +56,7 @@ const GALLERY: [Entry; 13] = [
     flat_punch::ENTRY,
     goodman::ENTRY,
     cattaneo_mindlin::ENTRY,
+    mindlin_sphere::ENTRY,
     konter::ENTRY,
     incline::ENTRY,
     wedge::ENTRY,
