@@ -31,6 +31,7 @@ mod gauss_seidel;
 mod history;
 mod iterate;
 mod plane_path;
+mod plane_piece;
 mod prediction;
 mod settings;
 mod starts;

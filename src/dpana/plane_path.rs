@@ -18,16 +18,12 @@
 //! run off, as a positive definite G bounds all states: it ends at λ = 0, in a state of the problem, however
 //! much friction there is.
 
-use faer::linalg::solvers::Solve;
-use faer::{Col, Mat};
+use faer::Col;
 
 use super::Outcome;
-use super::condition::times;
+use super::plane_piece::{Condition, Does, Line, Piece, is_rough};
 use crate::condensation::ContactProblem;
 use crate::kkt::ContactStatus;
-
-/// G is taken larger by this part of its diagonal on the way: definite, where contacts stand twice too.
-const SHIFT: f64 = 1e-12;
 
 /// Changes of contacts on a path at most, per contact.
 const CHANGES: usize = 1000;
@@ -38,19 +34,10 @@ const PRODUCTS: f64 = 1e12;
 /// A condition that changes by less than this part of the fastest does not change.
 const STILL: f64 = 1e-13;
 
-/// What a contact does.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Does {
-    Open,
-    /// With friction along this sign of its tangent; zero without a tangent.
-    Slip(f64),
-    Stick,
-}
-
 /// How a path ended.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum End {
-    /// At the parameter asked for, with this reaction.
+    /// At λ = 0, with this reaction.
     Reached(Vec<f64>),
     /// Where it turned back.
     Turned(f64),
@@ -60,41 +47,14 @@ pub(super) enum End {
 
 /// A path on its way.
 pub(super) struct PlanePath<'a> {
-    problem: &'a ContactProblem,
-    /// h, in metre per unknown and unit of λ.
-    drive: Col<f64>,
-    does: Vec<Does>,
+    piece: Piece<'a>,
     /// λ.
     parameter: f64,
     /// Sign of the change of λ.
     way: f64,
     /// Contacts that changed so far, one after the other.
     pub(super) changes: usize,
-}
-
-/// The line that a piece is part of: values at the parameter, and their change with it.
-struct Line {
-    reaction: [Col<f64>; 2],
-    displacement: [Col<f64>; 2],
-}
-
-/// A reaction along an unknown, with the friction that it brings along the next.
-struct Column {
-    contact: usize,
-    unknown: usize,
-    friction: f64,
-}
-
-/// One condition of (D10), not negative on its piece.
-#[derive(Clone, Copy)]
-struct Condition {
-    contact: usize,
-    /// What the contact does beyond it.
-    beyond: Does,
-    value: f64,
-    rate: f64,
-    /// Size of rates of its kind.
-    scale: f64,
+    products: f64,
 }
 
 impl<'a> PlanePath<'a> {
@@ -143,67 +103,48 @@ impl<'a> PlanePath<'a> {
         does: Vec<Does>,
         parameter: f64,
     ) -> Option<Self> {
-        let plane = problem
-            .offsets()
-            .windows(2)
-            .all(|ends| ends[1] - ends[0] <= 2);
+        let blocks = problem.offsets().windows(2);
+        let plane = blocks.into_iter().all(|ends| ends[1] - ends[0] <= 2);
         (plane && problem.floating().is_none()).then(|| Self {
-            problem,
-            drive,
-            does,
+            piece: Piece {
+                problem,
+                drive,
+                does,
+            },
             parameter,
             way: -1.0,
             changes: 0,
+            products: 0.0,
         })
     }
 
     /// Follows the path down to λ = 0, round its turns if it may turn.
     pub(super) fn follow(&mut self, turning: bool) -> End {
-        let mut products = 0.0;
-        let Some(mut line) = self.line(&mut products) else {
-            return End::Lost(self.parameter);
-        };
-        loop {
-            let Some((stride, next)) = self.first_to_break(&line) else {
-                return End::Lost(self.parameter);
+        let mut next = self.piece.line(self.parameter);
+        while let Some(line) = next {
+            let (stride, broken) = match self.first_to_break(&line) {
+                None => break,
+                Some((_, None)) => return End::Reached(self.piece.last()),
+                Some((stride, Some(broken))) => (stride, broken),
             };
-            let Some(next) = next else {
-                self.parameter = 0.0;
-                return End::Reached(self.last());
-            };
-            if self.changes == CHANGES * self.problem.contacts() || products > PRODUCTS {
-                return End::Lost(self.parameter);
-            }
-            self.changes += 1;
             self.parameter += self.way * stride;
-            let before = std::mem::replace(&mut self.does[next.contact], next.beyond);
-            let Some(new) = self.line(&mut products) else {
-                return End::Lost(self.parameter);
+            let Some((line, way)) = self.cross(broken) else {
+                break;
             };
-            let conditions = self.conditions(&new, next.contact);
-            // An open contact closes into the slip that its motion asks for.
-            let open = next.beyond == Does::Open;
-            let mut conditions = conditions.into_iter().flatten();
-            let Some(entered) = conditions.find(|edge| open || edge.beyond == before) else {
-                return End::Lost(self.parameter);
-            };
-            if entered.rate == 0.0 {
-                return End::Lost(self.parameter);
-            }
-            let way = entered.rate.signum();
             if way != self.way && !turning {
                 return End::Turned(self.parameter);
             }
-            (self.way, line) = (way, new);
+            (next, self.way) = (Some(line), way);
         }
+        End::Lost(self.parameter)
     }
 
     /// The condition that breaks first on the way, and the distance to it; or to λ = 0. None if λ
     /// grows without end.
     fn first_to_break(&self, line: &Line) -> Option<(f64, Option<Condition>)> {
         let mut first = (self.way < 0.0).then_some((self.parameter, None));
-        for contact in 0..self.problem.contacts() {
-            for condition in self.conditions(line, contact).into_iter().flatten() {
+        for contact in 0..self.piece.problem.contacts() {
+            for condition in self.piece.conditions(line, contact).into_iter().flatten() {
                 let rate = self.way * condition.rate;
                 if rate >= -STILL * condition.scale {
                     continue;
@@ -217,167 +158,30 @@ impl<'a> PlanePath<'a> {
         first
     }
 
-    /// The line of what the contacts do; none if it is not finite.
-    fn line(&self, products: &mut f64) -> Option<Line> {
-        let columns = self.columns();
-        *products += (columns.len() as f64).powi(3) / 3.0 + (self.drive.nrows() as f64).powi(2);
-        let closing = self.closing(&columns);
-        let right = Mat::from_fn(columns.len(), 2, |i, part| match part {
-            0 => closing[i],
-            _ => -self.drive[columns[i].unknown],
-        });
-        let found = self.matrix(&columns).partial_piv_lu().solve(right);
-        let finite = found.col_iter().flat_map(|column| column.iter());
-        if !finite.into_iter().all(|x| x.is_finite()) {
+    /// The piece beyond a condition, and the sign of the change of λ that leads into it; none if there
+    /// is none, or if it would be one too many.
+    fn cross(&mut self, broken: Condition) -> Option<(Line, f64)> {
+        self.changes += 1;
+        self.products += self.piece.products();
+        let contacts = self.piece.problem.contacts();
+        if self.changes > CHANGES * contacts || self.products > PRODUCTS {
             return None;
         }
-        let reaction = [0, 1].map(|part| self.reaction(&columns, &found.col(part).to_owned()));
-        let (free, g) = (self.problem.free_displacement(), self.problem.compliance());
-        let moved = [0, 1].map(|part| times(g, &reaction[part]));
-        let at = |k: usize, part: usize| moved[part][k] + self.own(k) * reaction[part][k];
-        let displacement = [
-            Col::from_fn(free.len(), |k| {
-                free[k] + self.parameter * self.drive[k] + at(k, 0)
-            }),
-            Col::from_fn(free.len(), |k| self.drive[k] + at(k, 1)),
-        ];
-        Some(Line {
-            reaction,
-            displacement,
-        })
+        let before = std::mem::replace(&mut self.piece.does[broken.contact], broken.beyond);
+        let line = self.piece.line(self.parameter)?;
+        // An open contact closes into the slip that its motion asks for, be it not the one it came from.
+        let open = broken.beyond == Does::Open;
+        let edges = self.piece.conditions(&line, broken.contact);
+        let mut edges = edges.into_iter().flatten();
+        let edge = edges.find(|edge| open || edge.beyond == before)?;
+        (edge.rate != 0.0).then(|| (line, edge.rate.signum()))
     }
-
-    /// The reaction at λ = 0 under G as it is, corrected by what the shift did.
-    fn last(&self) -> Vec<f64> {
-        let columns = self.columns();
-        let factor = self.matrix(&columns).partial_piv_lu();
-        let shifted = factor.solve(self.closing(&columns));
-        let off = Col::from_fn(columns.len(), |i| self.own(columns[i].unknown) * shifted[i]);
-        let reaction = self.reaction(&columns, &(&shifted + factor.solve(off)));
-        reaction.iter().copied().collect()
-    }
-
-    fn columns(&self) -> Vec<Column> {
-        let mut columns = Vec::new();
-        for (contact, does) in self.does.iter().enumerate() {
-            let unknown = self.problem.offsets()[contact];
-            let mut add = |unknown, friction| {
-                columns.push(Column {
-                    contact,
-                    unknown,
-                    friction,
-                })
-            };
-            match *does {
-                Does::Open => {}
-                Does::Slip(d) => add(unknown, -self.problem.friction()[contact] * d),
-                Does::Stick => {
-                    add(unknown, 0.0);
-                    add(unknown + 1, 0.0);
-                }
-            }
-        }
-        columns
-    }
-
-    /// What G is taken larger by on its diagonal.
-    fn own(&self, unknown: usize) -> f64 {
-        SHIFT * self.problem.compliance()[(unknown, unknown)]
-    }
-
-    /// Displacements at the columns' unknowns per reaction along the columns.
-    fn matrix(&self, columns: &[Column]) -> Mat<f64> {
-        let g = self.problem.compliance();
-        Mat::from_fn(columns.len(), columns.len(), |i, j| {
-            let (row, column) = (columns[i].unknown, columns[j].unknown);
-            let mut moved = g[(row, column)];
-            if columns[j].friction != 0.0 {
-                moved += columns[j].friction * g[(row, column + 1)];
-            }
-            if i == j { moved + self.own(row) } else { moved }
-        })
-    }
-
-    /// What closes gaps and undoes slips at the columns' unknowns.
-    fn closing(&self, columns: &[Column]) -> Col<f64> {
-        Col::from_fn(columns.len(), |i| {
-            let (k, contact) = (columns[i].unknown, columns[i].contact);
-            let normal = k == self.problem.offsets()[contact];
-            let gap = if normal {
-                self.problem.initial_gap()[contact]
-            } else {
-                0.0
-            };
-            gap - self.problem.free_displacement()[k] - self.parameter * self.drive[k]
-        })
-    }
-
-    /// Along the columns by this much.
-    fn reaction(&self, columns: &[Column], along: &Col<f64>) -> Col<f64> {
-        let mut reaction = Col::zeros(self.problem.unknowns());
-        for (column, t) in columns.iter().zip(along.iter()) {
-            reaction[column.unknown] += t;
-            if column.friction != 0.0 {
-                reaction[column.unknown + 1] += column.friction * t;
-            }
-        }
-        reaction
-    }
-
-    /// The conditions of what a contact does.
-    fn conditions(&self, line: &Line, contact: usize) -> [Option<Condition>; 2] {
-        let n = self.problem.offsets()[contact];
-        let (mu, rough) = (
-            self.problem.friction()[contact],
-            is_rough(self.problem, contact),
-        );
-        let ([t, t_rate], [u, u_rate]) = (&line.reaction, &line.displacement);
-        let of_forces = |beyond, of: &dyn Fn(&Col<f64>) -> f64| Condition {
-            contact,
-            beyond,
-            value: of(t),
-            rate: of(t_rate),
-            scale: (1.0 + mu) * t_rate.norm_max(),
-        };
-        let of_motions = |beyond, value, rate| Condition {
-            contact,
-            beyond,
-            value,
-            rate,
-            scale: self.drive.norm_max(),
-        };
-        match self.does[contact] {
-            Does::Open => {
-                // It will slip the way it moves, against its friction.
-                let slip = match rough {
-                    true if u[n + 1] > 0.0 => Does::Slip(-1.0),
-                    true => Does::Slip(1.0),
-                    false => Does::Slip(0.0),
-                };
-                let gap = self.problem.initial_gap()[contact] - u[n];
-                [Some(of_motions(slip, gap, -u_rate[n])), None]
-            }
-            Does::Slip(d) => [
-                Some(of_forces(Does::Open, &|t| -t[n])),
-                rough.then(|| of_motions(Does::Stick, -d * u[n + 1], -d * u_rate[n + 1])),
-            ],
-            Does::Stick => {
-                [1.0, -1.0].map(|d| Some(of_forces(Does::Slip(d), &|t| -mu * t[n] - d * t[n + 1])))
-            }
-        }
-    }
-}
-
-/// Whether friction holds a contact at all.
-fn is_rough(problem: &ContactProblem, contact: usize) -> bool {
-    let ends = &problem.offsets()[contact..contact + 2];
-    ends[1] > ends[0] + 1 && problem.friction()[contact] > 0.0
 }
 
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use faer::mat;
+    use faer::{Mat, mat};
 
     use super::*;
     use crate::condensation::Operator;
@@ -389,18 +193,19 @@ mod tests {
         ContactProblem::new(&[1], vec![friction], vec![0.0], free.to_vec(), operator).unwrap()
     }
 
+    fn assert_reaches(path: &mut PlanePath<'_>, expected: [f64; 2]) {
+        let End::Reached(found) = path.follow(true) else {
+            unreachable!()
+        };
+        let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        assert!(off < 1e-14, "{found:?}");
+    }
+
     #[test]
     fn an_approach_ends_in_a_state_that_sticks() {
         // û = (1, 0.2): t = −K û = (−2.2, −1.2), |t_T| <= 1.5 · 2.2.
         let problem = contact(1.5, [1.0, 0.2]);
-        let mut path = PlanePath::of_approach(&problem).unwrap();
-        let End::Reached(reaction) = path.follow(true) else {
-            unreachable!()
-        };
-        assert!(
-            (reaction[0] + 2.2).abs() < 1e-14 && (reaction[1] + 1.2).abs() < 1e-14,
-            "{reaction:?}"
-        );
+        assert_reaches(&mut PlanePath::of_approach(&problem).unwrap(), [-2.2, -1.2]);
     }
 
     #[test]
@@ -415,13 +220,7 @@ mod tests {
         // grows again, up to where it sticks (τ = 4 |n − λ|: λ = 0.225), and on to t = −K û.
         let problem = contact(1.5, [0.1, 0.5]);
         let mut path = PlanePath::of_approach(&problem).unwrap();
-        let End::Reached(reaction) = path.follow(true) else {
-            unreachable!()
-        };
-        assert!(
-            (reaction[0] + 0.7).abs() < 1e-14 && (reaction[1] + 0.6).abs() < 1e-14,
-            "{reaction:?}"
-        );
+        assert_reaches(&mut path, [-0.7, -0.6]);
         assert_eq!(path.changes, 2);
     }
 
