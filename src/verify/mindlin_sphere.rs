@@ -1,5 +1,5 @@
 //! Mindlin's partial slip in 3D: two equal paraboloids, pressed, then pulled sideways,
-//! at three loads one after the other.
+//! at several loads one after the other.
 
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ const MATERIAL: Elastic = Elastic {
 
 /// Radii of the contacts that the bodies are pressed to one after the other, in mm, so that the edges
 /// of contact and stick fall anywhere between two nodes.
-const CONTACTS: [f64; 3] = [0.9, 1.0, 1.1];
+const CONTACTS: [f64; 5] = [0.9, 0.95, 1.0, 1.05, 1.1];
 
 /// R of each body, and how far its far sides are, in mm.
 const RADIUS: f64 = 1e4;
@@ -207,7 +207,7 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
     }
     // (h/a)², as for the sphere of Hertz, and the far sides.
     let finest = meshes.last().copied().unwrap_or(1.0);
-    let [least, _, most] = CONTACTS;
+    let [least, .., most] = CONTACTS;
     let within = (finest * least).powi(-2) + 2.0 * most / (PI * SIZE);
     let mut quantities = Vec::from(ladders.judge());
     quantities.push(displacement.judge(Criterion::FinestMesh { within }));
