@@ -71,7 +71,7 @@ fn the_whole_gallery_passes() {
     for mesh in [
         "80 quad4 per mm",
         "28³ hex8",
-        "8 hex8 per mm",
+        "6 hex8 per mm",
         "0.125 mm quad4",
     ] {
         assert!(finest.contains(&mesh), "{mesh} is not among {finest:?}");

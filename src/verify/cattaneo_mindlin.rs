@@ -169,9 +169,10 @@ impl Ladders {
         ];
     }
 
-    /// Allowed are (h/c)², mean over the pulls, for what is of second order, and twice what strips
-    /// of constant shear have; rates nearer to these orders than to the next lower one.
-    pub(super) fn judge(self) -> [VerifiedQuantity; 2] {
+    /// Allowed are (h/c)², mean over the pulls, for what is of second order, at a rate nearer to two
+    /// than to one, and twice what strips of constant shear have for what is of first, at the least
+    /// rate given.
+    pub(super) fn judge(self, rate: f64) -> [VerifiedQuantity; 2] {
         let [stick, shear] = self.within;
         [
             self.stick.judge(Criterion::Converges {
@@ -180,7 +181,7 @@ impl Ladders {
             }),
             self.shear.judge(Criterion::Converges {
                 within: shear,
-                rate: 0.8,
+                rate,
             }),
         ]
     }
@@ -210,5 +211,5 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
         let name = format!("{cells} quad4 per mm");
         ladders.climb(&name, 1.0 / cells, settled, &found);
     }
-    Ok(ladders.judge().into())
+    Ok(ladders.judge(0.8).into())
 }

