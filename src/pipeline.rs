@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use crate::body::{self, Body};
 use crate::condensation::{Condensed, ContactPair};
-use crate::dpana::{self, Earlier, Outcome, Settings, Status};
+use crate::dpana::{self, Earlier, Outcome, Settings, Shortfall, Status};
 use crate::error::Error;
 use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
@@ -76,12 +76,22 @@ impl Setup {
         Ok(solution)
     }
 
-    /// Measures recovered bodies.
-    fn measure(self, outcome: Outcome, displacements: Vec<Vec<f64>>) -> Result<Solution, Error> {
+    /// Measures recovered bodies; contacts of a body that is not in equilibrium have no certificate.
+    fn measure(
+        self,
+        mut outcome: Outcome,
+        displacements: Vec<Vec<f64>>,
+    ) -> Result<Solution, Error> {
         let start = Instant::now();
         let condensed = &self.condensed;
         let states = self.body_states(&outcome.reaction, &displacements);
-        let balances = states.iter().map(kkt::balance).collect::<Result<_, _>>()?;
+        let balances: Vec<Balance> = states.iter().map(kkt::balance).collect::<Result<_, _>>()?;
+        let out = balances.iter().position(|balance| !balance.holds());
+        if let (Some(body), Status::Certified) = (out, outcome.status) {
+            let part = balances[body].equilibrium.scaled;
+            outcome.status = Status::NotConverged;
+            outcome.shortfall = Some(Shortfall::OutOfBalance { body, part });
+        }
         let problem = condensed.problem();
         let departure = kkt::surface_departure(
             &self.bodies,

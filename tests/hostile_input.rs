@@ -287,3 +287,27 @@ fn modes_that_cannot_be_compared_are_refused_by_their_size() {
         &["NaN is not a finite"],
     );
 }
+
+/// Found by the target `scene`: cells of 1 by 1 by 2e19 leave the stiffness no digits. The condensed problem was
+/// solved, and the body was out of balance by 0.84 of the largest force.
+#[test]
+fn a_body_whose_cells_leave_no_digits_is_not_certified() {
+    let scene = r#"{"bodies": [{"name": "c", "materials": [{"poisson": 0.3, "young": 1000}],
+        "mesh": {"box": {"cells": [2, 1, 2], "x": [0, 1], "y": [-2e19, 1], "z": [0, 1]}},
+        "supports": [{"displacement": [0.0045, 0, -0.01], "group": "top"}]}],
+        "contacts": [{"friction": 1.3, "group": "bottom",
+            "obstacle": {"plane": {"normal": [0, 0, 1], "point": [0, 0, 0]}}}]}"#;
+    let solution = dpana::solve(&dpana::Scene::from_json(scene, "").unwrap()).unwrap();
+    let holds = solution.balances().iter().all(dpana::kkt::Balance::holds);
+    assert!(!holds);
+    let report = solution.report().unwrap();
+    let json: serde_json::Value = serde_json::from_str(&report.to_json()).unwrap();
+    assert_eq!(
+        (&json["status"], &json["reason"]),
+        (&"not_converged".into(), &"out_of_balance".into())
+    );
+    assert_says(
+        &report.summary(),
+        &["not in equilibrium", "bodies[0]", "misplaced unit"],
+    );
+}

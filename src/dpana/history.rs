@@ -73,6 +73,14 @@ pub enum Shortfall {
         /// Condition of the compliance, see [`Outcome::condition`].
         condition: f64,
     },
+    /// The contacts are solved, but what was recovered of a body is not in equilibrium (K4): its cells
+    /// leave the stiffness no digits.
+    OutOfBalance {
+        /// Which body.
+        body: usize,
+        /// The force that nothing carries, as a part of the largest on that body.
+        part: f64,
+    },
     /// The residual is what the rounding of the reaction itself may leave: the tolerance asks for
     /// more digits than the problem has.
     RoundOff {

@@ -15,6 +15,13 @@ use super::resultant::{Defect, Resultant, length, nodal_lengths};
 use crate::body::Model;
 use crate::error::Error;
 
+/// A body is in equilibrium if what nothing carries is less than this part of the largest force on it,
+/// and where a support is, to this part of the largest displacement,
+const UNCARRIED: f64 = 1e-6;
+
+/// or if it is less than this part of the forces of the cells themselves: rounding, however they cancel.
+const ROUNDED: f64 = 1e-12;
+
 /// A residual with the node where it is worst.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct WorstNode {
@@ -32,6 +39,8 @@ pub struct Balance {
     /// Largest force that nothing carries at a free displacement, in newton; scaled by
     /// the largest nodal load, contact force or support reaction.
     pub equilibrium: WorstNode,
+    /// `Σ |K_ij u_j|` at that node, in newton: forces of the cells before they cancel.
+    pub inner: f64,
     /// Largest departure from a given displacement, in metre; scaled by the largest displacement.
     pub support: WorstNode,
     /// Given forces.
@@ -44,6 +53,17 @@ pub struct Balance {
     pub force_defect: Defect,
     /// Length of the sum of all moments; scaled by the sum of forces at the farthest node.
     pub moment_defect: Defect,
+}
+
+impl Balance {
+    /// Whether the recovered body is in equilibrium at all: it is not where the cells leave the
+    /// stiffness no digits.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        let carried =
+            self.equilibrium.scaled <= UNCARRIED || self.equilibrium.value <= ROUNDED * self.inner;
+        carried && self.support.scaled <= UNCARRIED
+    }
 }
 
 /// Measures (K4).
@@ -75,8 +95,10 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
             [loads.moment, contact.moment, supports.moment],
         ],
     };
+    let equilibrium = worst_node(&loose, force, dimension);
     Ok(Balance {
-        equilibrium: worst_node(&loose, force, dimension),
+        inner: state.inner_force(equilibrium.node),
+        equilibrium,
         support: worst_node(&state.support_departure(), motion, dimension),
         loads,
         contact,

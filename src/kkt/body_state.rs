@@ -113,6 +113,20 @@ impl BodyState<'_> {
             .collect()
     }
 
+    /// Largest `Σ |K_ij u_j|` of a node's unknowns, in newton.
+    pub(super) fn inner_force(&self, node: usize) -> f64 {
+        let size = |unknown| match self.stiffness.outer_view(unknown) {
+            Some(row) => row
+                .iter()
+                .map(|(k, entry)| (entry * self.displacement[k]).abs())
+                .sum(),
+            None => 0.0,
+        };
+        let dimension = self.dimension();
+        let unknowns = node * dimension..(node + 1) * dimension;
+        unknowns.map(size).fold(0.0, f64::max)
+    }
+
     /// Displacement minus the given one, zero where free, in metre.
     pub(super) fn support_departure(&self) -> Vec<f64> {
         let pairs = self.prescribed.iter().zip(self.displacement);

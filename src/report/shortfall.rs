@@ -28,6 +28,8 @@ pub enum Reason {
     ConeSolver,
     /// The bodies hardly tell the contacts apart.
     IllConditioned,
+    /// A body as a whole is not in equilibrium.
+    OutOfBalance,
     /// The tolerance asks for more digits than the problem has.
     RoundOff,
 }
@@ -41,6 +43,9 @@ impl Reason {
             Self::Stalled => "many sweeps led to no better state",
             Self::ConeSolver => "the cone solver gave up",
             Self::IllConditioned => "ill-conditioned: the bodies hardly tell the contacts apart",
+            Self::OutOfBalance => {
+                "a body as a whole is not in equilibrium: its cells leave no digits"
+            }
             Self::RoundOff => "what is left is round-off",
         }
     }
@@ -88,6 +93,14 @@ impl From<dpana::Shortfall> for Shortfall {
                     "condition {} of the compliance: look for contacts that stand twice, nearly \
                      in the same place or direction, and for supports that hardly hold a body",
                     size(condition)
+                ),
+            ),
+            dpana::Shortfall::OutOfBalance { body, part } => (
+                Reason::OutOfBalance,
+                format!(
+                    "nothing carries {} of the largest force on bodies[{body}]: look for cells that are \
+                     millions of times as long as wide, and for a misplaced unit among coordinates",
+                    size(part)
                 ),
             ),
             dpana::Shortfall::RoundOff { floor } => (

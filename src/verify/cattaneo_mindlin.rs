@@ -171,17 +171,20 @@ impl Ladders {
 
     /// Allowed are (h/c)², mean over the pulls, for what is of second order, at a rate nearer to two
     /// than to one, and twice what strips of constant shear have for what is of first, at the least
-    /// rate given.
-    pub(super) fn judge(self, rate: f64) -> [VerifiedQuantity; 2] {
+    /// rate given, if any.
+    pub(super) fn judge(self, rate: Option<f64>) -> [VerifiedQuantity; 2] {
         let [stick, shear] = self.within;
         [
             self.stick.judge(Criterion::Converges {
                 within: stick,
                 rate: 1.5,
             }),
-            self.shear.judge(Criterion::Converges {
-                within: shear,
-                rate,
+            self.shear.judge(match rate {
+                Some(rate) => Criterion::Converges {
+                    within: shear,
+                    rate,
+                },
+                None => Criterion::FinestMesh { within: shear },
             }),
         ]
     }
@@ -211,5 +214,5 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
         let name = format!("{cells} quad4 per mm");
         ladders.climb(&name, 1.0 / cells, settled, &found);
     }
-    Ok(ladders.judge(0.8).into())
+    Ok(ladders.judge(Some(0.8)).into())
 }
