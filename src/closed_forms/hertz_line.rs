@@ -51,7 +51,7 @@ mod tests {
 
     #[test]
     fn konters_cylinder_has_the_published_width_and_peak() {
-        // NAFEMS Konter 2006 no. 1: a = 6.21463 mm, p₀ = 3585.36 MPa.
+        // NAFEMS Konter 2006 no. 1: a = 6.21463 mm, p₀ = 3585.36 MPa, to half of the last digit.
         let hertz = HertzLine::new(35e3, 50.0, 57_692.307_692_3).unwrap();
         assert_close(hertz.half_width, 6.21463, 1e-6);
         assert_close(hertz.peak, 3585.36, 1e-6);

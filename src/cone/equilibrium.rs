@@ -184,7 +184,7 @@ mod tests {
                 let slope = mu * (1.0 + margin);
                 let (contacts, weight) = block(slope);
                 let (motion, excess) = impossible(&contacts, &weight);
-                // It slides down the slope and may open as it does: (1, μ).
+                // It slides down the slope and may open as it does: (1, μ), and up to 1/`FAR` otherwise.
                 assert!(
                     (motion[0] - 1.0).abs() < 1e-6 && (motion[1] - mu).abs() < 1e-6,
                     "{motion:?}"
