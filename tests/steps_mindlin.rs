@@ -248,13 +248,14 @@ fn on_a_fine_mesh_the_shear_is_that_of_cattaneo_and_mindlin() {
         let c = hertz.stick(load, shear);
         // Half a cell.
         assert!(
-            (stick(report) - c).abs() < 1.0 / cells,
+            (stick(report) - c).abs() < 0.5 / cells,
             "{ratio}: {} {c}",
             stick(report)
         );
         let field = |x| hertz.cattaneo(c, x);
         let error = departure(report, field, field);
-        // 0.02 as above, of forty strips at the first ratio, and 0.02 as a node that closes begins its slip at once.
+        // Strips as above, forty: 0.02 at the first ratio. Where tangents are inclined by x/R on one side p x/(2R)
+        // of a vertical pressure counts as friction, a/(2μR) √(1/5) = 0.8 % of μ p in L2, there 0.03 of the shear.
         assert!(error < 0.04, "{ratio}: {error}");
     }
 }
@@ -284,7 +285,7 @@ fn sheared_and_pressed_in_proportion_nothing_slips() {
     let (load, shear) = resultants(last);
     assert!(shear > 0.5 * FRICTION * load);
     assert_eq!(last.totals.slip, 0);
-    // 0.11/n of strips, n = 20, and 0.02 as a node that closes begins its slip at once.
+    // 0.11/n of strips, n = 20, and up to 0.015 of inclined tangents, 0.8 % of μ p (above) with q > μ p/2.
     let error = departure(last, field, field);
     assert!(error < 0.03, "{error}");
     let hertz = Hertz::new(load);
@@ -310,9 +311,10 @@ fn pressed_on_after_shear_the_first_shear_stays() {
     let field = |x| hertz.cattaneo(hertz.stick(load, shear), x);
     let last = reports.last().unwrap();
     let (more, same) = resultants(last);
-    assert!(more > 3.9 * load && (same / shear - 1.0).abs() < 1e-3);
+    // Pressing bodies of one material shears them by (a/R)² at most.
+    assert!(more > 3.9 * load && (same / shear - 1.0).abs() < 1e-4);
     assert_eq!(last.totals.slip, 0);
-    // The same 0.02, and as much for the strips of the first contact, half as many as of the last.
+    // A guard: strips are half as many in the first contact, and tangents are inclined under the last pressure.
     let error = departure(last, field, field);
     assert!(error < 0.04, "{error}");
     let hertz = Hertz::new(more);
@@ -353,7 +355,7 @@ fn round(reports: &[Report]) -> Ledger {
     let (first, last) = (&reports[0], &reports[reports.len() - 1]);
     for (a, b) in first.contacts.iter().zip(&last.contacts) {
         for axis in 0..2 {
-            assert!((a.force[axis] - b.force[axis]).abs() < 1e-8 * last.totals.normal);
+            assert!((a.force[axis] - b.force[axis]).abs() < 1e-10 * last.totals.normal);
         }
     }
     for report in reports {
@@ -382,7 +384,7 @@ fn a_cycle_of_shear_closes_and_its_area_is_what_friction_dissipates() {
         // The work of the supports is that area, and what it is not is said to be open: sums of works that are
         // five hundred times those of the cycle, each to 1e-12.
         assert!((round.supports / area - 1.0).abs() < 1e-9);
-        assert!((area - round.dissipation - round.closure).abs() < 1e-8 * round.dissipation);
+        assert!((area - round.dissipation - round.closure).abs() < 1e-9 * round.dissipation);
         misfits.push((area / round.dissipation - 1.0).abs());
         dissipated.push(round.dissipation);
     }
@@ -390,10 +392,9 @@ fn a_cycle_of_shear_closes_and_its_area_is_what_friction_dissipates() {
     // friction dissipates is known from the first on. Half a cycle is 2n steps, in the one where a contact begins
     // to slip ½ · 1/2n · 1/2n of twice its friction times its slip is cut off: ¼/n². Normal forces follow the
     // shear by θ² = 1e-4, θ = a/R, of which as much is cut off.
-    assert!(
-        misfits[0] < 2e-3 && misfits[1] < 2e-4 && misfits[2] < 1e-5,
-        "{misfits:?}"
-    );
+    for (misfit, parts) in misfits.iter().zip([10.0, 40.0, 160.0_f64]) {
+        assert!(*misfit < 0.25 / parts.powi(2), "{misfits:?}");
+    }
     assert!(
         (dissipated[0] / dissipated[2] - 1.0).abs() < 1e-6,
         "{dissipated:?}"
