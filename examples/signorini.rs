@@ -110,9 +110,10 @@ mod tests {
         let (solution, report) = solve(SSNV128.as_ref()).unwrap();
         for point in &PUBLISHED {
             let found = slide(&solution, point.x).unwrap();
-            let error = (found / point.same_mesh - 1.0).abs();
+            // Half of the last printed digit, and what its own rounding adds.
+            let error = (found - point.same_mesh).abs();
             assert!(
-                error < 2e-4,
+                error < 6e-6,
                 "{}: {found} against {}",
                 point.name,
                 point.same_mesh
@@ -121,6 +122,7 @@ mod tests {
         let totals = &report.totals;
         assert_eq!((totals.open, totals.slip, totals.stick), (3, 21, 8));
         let friction = totals.friction[0];
+        // To its five digits, which hold for the limit and, but for the last, on this mesh.
         assert!((friction / -1.4054e6 - 1.0).abs() < 1e-4, "{friction}");
         assert_eq!(solution.status(), Status::Certified);
         assert!(report.certificate.natural_map <= 1e-12);

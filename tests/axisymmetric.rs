@@ -88,6 +88,7 @@ fn two_cylinders_carry_their_pressure_evenly_on_meshes_that_do_not_match() {
         };
         let meshes = vec![block(kinds[0], 5, 0.0), block(kinds[1], 7, 1.0)];
         let (_, report) = certified(&with_meshes(&scene, meshes));
+        // Certified to 1e-12, and a digit for the condition of G, 6 to 15 contacts across.
         for contact in &report.contacts {
             let off = (contact.pressure.unwrap() / 2.0 - 1.0).abs();
             assert!(off < 1e-11, "{kinds:?} {off:e} {contact:?}");
@@ -146,6 +147,9 @@ fn a_ball_on_a_block_is_hertz_contact() {
         (CellKind::Quad9, 0.02),
     ] {
         let (hertz, report) = ball(kind, fine);
+        // A point force moves what lies L = 120 below by 0.73 a/L = 0.2 % of the approach; a base that may not move
+        // takes up to twice that, which is 0.6 % of the force, 0.2 % of p₀ and of a. n = 32 contacts per radius miss
+        // the pressure by 0.11/n = 0.35 % (references: strips in the plane).
         let force = report.totals.normal;
         assert!((force / hertz.load - 1.0).abs() < 0.01, "{kind:?} {force}");
         let peak = report.totals.peak_pressure;
@@ -163,6 +167,7 @@ fn a_ball_on_a_block_is_hertz_contact() {
             .contacts
             .iter()
             .filter(|c| c.position[0] < 0.8 * hertz.contact_radius);
+        // A rim that is a quarter of a cell off, a/(4n), counts 1/(1 − 0.8²) times as much there: 2 %.
         for contact in inside {
             let expected = hertz.pressure(contact.position[0]);
             let off = (contact.pressure.unwrap() / expected - 1.0).abs();
@@ -207,6 +212,8 @@ fn a_flat_punch_sinks_as_boussinesq_says() {
     for kind in [CellKind::Quad4, CellKind::Quad9] {
         let (_, report) = punch(kind, 0.3, 0.0, false);
         let exact = FlatRoundPunch::new(report.totals.normal, 1.0, 1.0 / 0.91).unwrap();
+        // The mesh's punch is up to half a cell wider, 0.1 %, and the far side takes up to a/L = 0.33 %; the
+        // pressure at 0.9 a feels its radius 1/(1 − 0.9²) = 5.3 times.
         let off = (exact.approach / 1e-3 - 1.0).abs();
         assert!(off < 0.01, "{kind:?} {off}");
         for contact in report.contacts.iter().filter(|c| c.position[0] < 0.9) {
@@ -259,6 +266,7 @@ fn a_cone_meets_the_axis_with_its_apex() {
         let mesh = rectangle(&lines, &falling(&lines), kind).unwrap();
         let (_, report) = certified(&with_meshes(&scene, vec![mesh]));
         let exact = 2.0 / 0.91 * depth * depth / (std::f64::consts::PI * slope);
+        // A radius of 0.38 is 38 cells, and 0.3 % of the height, which counts twice: P goes with δ².
         let off = (report.totals.normal / exact - 1.0).abs();
         assert!(off < 0.015, "{kind:?} {off} {}", report.totals.normal);
     }

@@ -153,6 +153,7 @@ fn the_foundation_gives_way_as_published() {
     let top = &report.certificate.bodies[1].supports.force;
     assert!((top[1] / load - 1.0).abs() < 1e-10, "{top:?}");
     let centre = solution.displacement_near(1, [0.0, 0.0, 0.0]).unwrap()[1];
+    // Eight digits are published, of a mesh that is not: 1 % is a guard of the distance to it.
     assert!((centre / -0.132_897_45 - 1.0).abs() < 0.01, "{centre}");
     for body in &report.certificate.bodies {
         assert!(body.force_defect.scaled < 1e-10 && body.moment_defect.scaled < 1e-10);

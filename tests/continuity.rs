@@ -42,7 +42,8 @@ fn a_contact_that_snaps_shut_has_no_path() {
     let WayBack::Turns(part) = back(&contact([0.1, 0.5]), &earlier([0.0; 2], [-0.1, 0.3])) else {
         unreachable!()
     };
-    assert!((part - 0.1).abs() < 1e-9, "{part}");
+    // The end is certified to 1e-12, and λ moves five times as fast as n.
+    assert!((part - 0.1).abs() < 1e-11, "{part}");
 }
 
 #[test]

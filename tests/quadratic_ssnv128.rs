@@ -35,22 +35,25 @@ fn worst(solution: &Solution) -> f64 {
 
 #[test]
 fn the_displacements_under_the_square_reach_their_limit() {
-    for (cell, cells, accepted) in [
-        (PlaneCell::Quad8, 64, 2e-4),
-        (PlaneCell::Quad9, 64, 2e-4),
-        (PlaneCell::Tri6, 32, 1e-3),
+    for (cell, cells) in [
+        (PlaneCell::Quad8, 64),
+        (PlaneCell::Quad9, 64),
+        (PlaneCell::Tri6, 32),
     ] {
         let solution = square_of(cell, cells);
         assert_eq!(solution.status(), Status::Certified);
         let found = worst(&solution);
         let report = solution.report().unwrap();
-        assert!(found < accepted, "{cell:?}: {found:e}");
+        // Three times what the limit is known to, 6.5e-5; 32 bilinear cells a side miss it by 7.5e-4 (references).
+        assert!(found < 2e-4, "{cell:?}: {found:e}");
         let (totals, balance) = (&report.totals, &report.certificate.bodies[0]);
         // The top carries 5e7 Pa · 0.04 m; the corner's support takes what the contact does not.
         let carried = totals.normal + balance.supports.force[1];
         assert!((carried / 2e6 - 1.0).abs() < 1e-12, "{carried}");
+        // Order two, h² of the side, and as much again.
+        let accepted = 2.0 / (cells * cells) as f64;
         assert!(
-            (totals.friction[0] / -1.4054e6 - 1.0).abs() < 2e-3,
+            (totals.friction[0] / -1.405_36e6 - 1.0).abs() < accepted,
             "{:?}",
             totals.friction
         );

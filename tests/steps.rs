@@ -64,12 +64,15 @@ fn work_is_energy_and_friction_and_what_a_step_does_not_tell_is_small() {
     let total = reports.last().unwrap().step.as_ref().unwrap().total;
     let work = total.loads + total.supports + total.obstacles;
     assert_eq!((total.loads, total.obstacles), (0.0, 0.0));
+    // Both take a part that a wrong ledger could not hide in.
     assert!(
         total.dissipation > 0.05 * work && total.elastic > 0.05 * work,
         "{total:?}"
     );
     assert!((work - total.elastic - total.dissipation - total.closure).abs() < 1e-12 * work);
-    assert!(total.closure.abs() < 0.02 * work, "{total:?}");
+    // Contacts begin to slip once in each ramp of ten steps or more, and lose ½ Δt Δs of that step:
+    // ½ · 1/10 · 1/10 of force times slip.
+    assert!(total.closure.abs() < 0.005 * work, "{total:?}");
     for report in &reports {
         assert!(report.step.as_ref().unwrap().ledger.dissipation >= 0.0);
     }
@@ -105,6 +108,8 @@ fn an_obstacle_moved_under_a_body_is_the_body_moved_over_it() {
         "obstacles": {"contacts[0]": [[0, 0, 0], [1, 0, 0.01], [2, -0.008, 0.01], [3, 0.005, 0.01]]}
     });
     let [over, under] = [over, under].map(|steps| history(&scene(&block(&steps))));
+    // Certified to 1e-12 of forces of newtons and displacements of 0.01 m, and a digit or two for the condition
+    // of G, 13 contacts across.
     for (a, b) in over.iter().zip(&under) {
         for (a, b) in a.contacts.iter().zip(&b.contacts) {
             assert!((a.gap - b.gap).abs() < 1e-13);
@@ -152,8 +157,9 @@ fn a_floating_pad_is_pushed_to_and_fro() {
     let factors = |most: f64| json!({"bodies[0].loads[1]": [[0, 0], [1, most], [3, -most]]});
     let reports = history(&pad(json!({"at": [0.5, 1, 2, 3], "factors": factors(1.0)})));
     for (report, push) in reports.iter().zip([0.45, 0.9, 0.0, -0.9]) {
-        assert!((report.totals.friction[0] + push).abs() < 1e-10, "{push}");
-        assert!((report.totals.normal - 2.0).abs() < 1e-10);
+        // Equilibrium is certified to 1e-12 of the load, 2 N and 0.9 N.
+        assert!((report.totals.friction[0] + push).abs() < 1e-11, "{push}");
+        assert!((report.totals.normal - 2.0).abs() < 1e-11);
     }
     // Beyond the limit the history ends with the state that has no equilibrium.
     let slides = pad(json!({"at": [0.5, 1, 2, 3], "factors": factors(1.5)}));

@@ -75,6 +75,7 @@ fn steps_that_are_resolved_dissipate_what_fine_steps_do() {
             .iter()
             .all(|report| report.step.as_ref().unwrap().halving.is_none())
     );
+    // Far above the 1e-5 and 1e-6 that are asked for below: there is something to resolve.
     assert!(error(&coarse) > 2e-4);
     let mut solved = Vec::new();
     for resolve in [1e-3, 1e-5, 1e-6] {

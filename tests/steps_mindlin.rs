@@ -209,13 +209,18 @@ fn pressed_then_sheared(meshes: [Mesh; 2], count: u32) -> Vec<Report> {
 fn the_shipped_pair_sticks_where_cattaneo_and_mindlin_say() {
     // Eleven cells across the contact. Between its nodes not even the exact shear, made linear, is
     // nearer than 23, 12, 8 and 6 % of itself, for its slope is infinite at ±c and ±a: the computed
-    // one is held against that. In the sum over nodes it misses by 9, 6, 3.5 and 2.7 %.
+    // one is held against that, with a twentieth more for its own error. In the sum over nodes n constant
+    // strips per half-width miss a pressure in L2 by 0.11/n (references: computed); the shear is a difference
+    // of two, over a and over c: 0.11/n (1 + √(c/a)) of μ p, 0.039 with n = 5.5, and over the shear itself,
+    // a part of 0.26, 0.5, 0.75 and 0.89 of μ p in L2, 0.15, 0.07, 0.046 and 0.035.
     let ratios = [0.25, 0.5, 0.75, 0.9];
     for (report, ratio) in pressed_then_sheared(shipped(), 40).iter().zip(ratios) {
         let (load, shear) = resultants(report);
+        // The state that was meant; what is expected follows from the forces found.
         assert!((shear / (FRICTION * load) - ratio).abs() < 0.01);
         let hertz = Hertz::new(load);
         let c = hertz.stick(load, shear);
+        // Half a cell.
         assert!(
             (stick(report) - c).abs() < 0.09375,
             "{ratio}: {} {c}",
@@ -241,13 +246,16 @@ fn on_a_fine_mesh_the_shear_is_that_of_cattaneo_and_mindlin() {
         assert!((shear / (FRICTION * load) - ratio).abs() < 0.01);
         let hertz = Hertz::new(load);
         let c = hertz.stick(load, shear);
+        // Half a cell.
         assert!(
-            (stick(report) - c).abs() < 1.0 / cells,
+            (stick(report) - c).abs() < 0.5 / cells,
             "{ratio}: {} {c}",
             stick(report)
         );
         let field = |x| hertz.cattaneo(c, x);
         let error = departure(report, field, field);
+        // Strips as above, forty: 0.02 at the first ratio. Where tangents are inclined by x/R on one side p x/(2R)
+        // of a vertical pressure counts as friction, a/(2μR) √(1/5) = 0.8 % of μ p in L2, there 0.03 of the shear.
         assert!(error < 0.04, "{ratio}: {error}");
     }
 }
@@ -277,6 +285,7 @@ fn sheared_and_pressed_in_proportion_nothing_slips() {
     let (load, shear) = resultants(last);
     assert!(shear > 0.5 * FRICTION * load);
     assert_eq!(last.totals.slip, 0);
+    // 0.11/n of strips, n = 20, and up to 0.015 of inclined tangents, 0.8 % of μ p (above) with q > μ p/2.
     let error = departure(last, field, field);
     assert!(error < 0.03, "{error}");
     let hertz = Hertz::new(load);
@@ -302,8 +311,10 @@ fn pressed_on_after_shear_the_first_shear_stays() {
     let field = |x| hertz.cattaneo(hertz.stick(load, shear), x);
     let last = reports.last().unwrap();
     let (more, same) = resultants(last);
-    assert!(more > 3.9 * load && (same / shear - 1.0).abs() < 1e-3);
+    // Pressing bodies of one material shears them by (a/R)² at most.
+    assert!(more > 3.9 * load && (same / shear - 1.0).abs() < 1e-4);
     assert_eq!(last.totals.slip, 0);
+    // A guard: strips are half as many in the first contact, and tangents are inclined under the last pressure.
     let error = departure(last, field, field);
     assert!(error < 0.04, "{error}");
     let hertz = Hertz::new(more);
@@ -339,10 +350,12 @@ fn area(reports: &[Report]) -> f64 {
 
 /// What a cycle adds to the ledger; it must close, force by force.
 fn round(reports: &[Report]) -> Ledger {
+    // Certified to 1e-12, and two digits for the condition of G and for slips that up to 640 steps hand on; the
+    // elastic energy is five hundred times what a cycle dissipates.
     let (first, last) = (&reports[0], &reports[reports.len() - 1]);
     for (a, b) in first.contacts.iter().zip(&last.contacts) {
         for axis in 0..2 {
-            assert!((a.force[axis] - b.force[axis]).abs() < 1e-8 * last.totals.normal);
+            assert!((a.force[axis] - b.force[axis]).abs() < 1e-10 * last.totals.normal);
         }
     }
     for report in reports {
@@ -368,18 +381,20 @@ fn a_cycle_of_shear_closes_and_its_area_is_what_friction_dissipates() {
     for parts in [10, 40, 160] {
         let reports = cycle(parts, None);
         let (round, area) = (round(&reports), area(&reports));
-        // The work of the supports is that area, and what it is not is said to be open.
+        // The work of the supports is that area, and what it is not is said to be open: sums of works that are
+        // five hundred times those of the cycle, each to 1e-12.
         assert!((round.supports / area - 1.0).abs() < 1e-9);
-        assert!((area - round.dissipation - round.closure).abs() < 1e-8 * round.dissipation);
+        assert!((area - round.dissipation - round.closure).abs() < 1e-9 * round.dissipation);
         misfits.push((area / round.dissipation - 1.0).abs());
         dissipated.push(round.dissipation);
     }
     // Chords cut the corners where contacts begin to slip, by the square of the steps; what
-    // friction dissipates is known from the first on.
-    assert!(
-        misfits[0] < 2e-3 && misfits[1] < 2e-4 && misfits[2] < 1e-5,
-        "{misfits:?}"
-    );
+    // friction dissipates is known from the first on. Half a cycle is 2n steps, in the one where a contact begins
+    // to slip ½ · 1/2n · 1/2n of twice its friction times its slip is cut off: ¼/n². Normal forces follow the
+    // shear by θ² = 1e-4, θ = a/R, of which as much is cut off.
+    for (misfit, parts) in misfits.iter().zip([10.0, 40.0, 160.0_f64]) {
+        assert!(*misfit < 0.25 / parts.powi(2), "{misfits:?}");
+    }
     assert!(
         (dissipated[0] / dissipated[2] - 1.0).abs() < 1e-6,
         "{dissipated:?}"
@@ -391,13 +406,14 @@ fn halved_where_contacts_begin_to_slip_the_work_of_a_cycle_is_its_dissipation() 
     let reports = cycle(5, Some(1e-5));
     let round = round(&reports);
     let misfit = round.supports / round.dissipation - 1.0;
+    // Of second order, the last halving leaves less than it shows: a tenth of the 1e-5 asked for is a guard.
     assert!(misfit.abs() < 1e-6, "{misfit}");
     let halvings = reports[1..]
         .iter()
         .map(|report| report.step.as_ref().unwrap().halving.unwrap());
     let halvings: Vec<_> = halvings.collect();
     assert!(halvings.iter().all(|halving| halving.resolved));
-    // Equal steps take 6400 for that.
+    // Equal steps take 6400 for that: a guard of the work, not of the answer.
     let parts: usize = halvings.iter().map(|halving| halving.parts).sum();
     assert!(parts <= 100, "{parts}");
 }
@@ -407,7 +423,9 @@ fn halved_where_contacts_begin_to_slip_the_work_of_a_cycle_is_its_dissipation() 
 /// Solutions in Contact Mechanics, WIT Press 2005), on contacts that stand `size` mm apart.
 ///
 /// The end of the zone of stick lies between two contacts, and there the field is steepest: the
-/// error is that of where it lies, of first order.
+/// error is that of where it lies, of first order. Strips miss the parts over a, c and twice c' by
+/// 0.11/n (1 + √(c/a) + 2 √(c'/a)) of μ p, up to 0.44 size/a with a = 1 mm, and by up to twice that where
+/// the ends fall badly.
 fn sheared_to_and_fro(meshes: [Mesh; 2], size: f64) {
     let at = instants(0.0, 1.0, 40)
         .chain([2.0])
@@ -428,6 +446,7 @@ fn sheared_to_and_fro(meshes: [Mesh; 2], size: f64) {
         let error = departure(report, field, |x| FRICTION * hertz.at(x));
         assert!(error < 0.7 * size, "{number}: {error}");
         let stuck = stick(report);
+        // Half a cell, and a tenth for that of Q₀.
         assert!(
             (stuck - back).abs() < 0.6 * size,
             "{number}: {stuck} {back}"

@@ -224,7 +224,8 @@ mod tests {
                 vec![0, 1, 2, 3 * along + 1, 3 * along + 2, 3 * across + 2]
             };
             let (found, expected) = (stretch(&chosen), stretch(&other));
-            assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+            // ε times the condition of K, some thousand, and a digit.
+            assert!((found / expected - 1.0).abs() < 1e-11, "{found} {expected}");
         }
     }
 

@@ -142,6 +142,7 @@ mod tests {
             for (j, row) in products(&body, &found).iter().enumerate() {
                 for (k, product) in row.iter().enumerate() {
                     let expected = f64::from(u8::from(j == k));
+                    // Coordinates near 5 of a body of 1e-3: arms are known to ε · 5e3 = 1e-12.
                     assert!((product - expected).abs() < 1e-11, "{j} {k} {product}");
                 }
             }

@@ -265,6 +265,7 @@ mod tests {
                         Vector3::zeros(),
                         Matrix3::from_diagonal(&Vector3::new(x, y, y)),
                     );
+                    // The condition of K is λ/μ = 5000 at ν = 0.4999 times some hundred for the cells: 1e6 ε.
                     let close = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-10;
                     assert!(found.iter().zip(&expected).all(close), "{kind:?} {poisson}");
                 }

@@ -87,7 +87,7 @@ mod tests {
         let line = FlatLinePunch::new(3.0, 2.0).unwrap();
         assert_close(over_width(2.0, |x| line.pressure(x)), 3.0, 1e-10);
         let round = FlatRoundPunch::new(3.0, 2.0, 11.0).unwrap();
-        assert_close(over_disc(2.0, |r| round.pressure(r)), 3.0, 1e-7);
+        assert_close(over_disc(2.0, |r| round.pressure(r)), 3.0, 1e-8);
         assert_eq!((line.pressure(2.1), round.pressure(-2.1)), (0.0, 0.0));
         assert!(line.pressure(2.0).is_infinite());
     }

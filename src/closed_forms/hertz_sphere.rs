@@ -65,7 +65,7 @@ mod tests {
         let of = |load| HertzSphere::new(load, 7.0, 11.0).unwrap();
         let hertz = of(3.0);
         let carried = over_disc(hertz.contact_radius, |r| hertz.pressure(r));
-        assert_close(carried, 3.0, 1e-7);
+        assert_close(carried, 3.0, 1e-8);
         // P = (4/3) E* √R δ^(3/2).
         let force = 4.0 / 3.0 * 11.0 * 7.0_f64.sqrt() * hertz.approach.powf(1.5);
         assert_close(force, 3.0, 1e-14);

@@ -113,6 +113,7 @@ mod tests {
     fn steel_on_aluminium_has_the_modulus_of_the_benchmark() {
         // NAFEMS Konter 2006 no. 1: E* = 57692.31 MPa.
         let found = contact_modulus(STEEL, Some(ALUMINIUM)).unwrap();
+        // Half of the last digit.
         assert_close(found, 57692.31, 1e-7);
         assert_close(
             contact_modulus(STEEL, None).unwrap(),
@@ -158,6 +159,7 @@ mod tests {
         };
         let rigid = dundurs_beta(STEEL, None).unwrap();
         assert_close(rigid, 0.4 / 1.4, 1e-15);
+        // A million million times as stiff.
         assert_close(dundurs_beta(STEEL, Some(stiff)).unwrap(), rigid, 1e-11);
     }
 

@@ -34,7 +34,7 @@ mod tests {
 
     #[test]
     fn the_square_without_friction_moves_as_computed_independently() {
-        // SSNV128 with μ = 0: 0.04 m under 150 MPa along x, 50 MPa along y.
+        // SSNV128 with μ = 0: 0.04 m under 150 MPa along x, 50 MPa along y; eleven digits.
         let [along, _] = uniform_strain(STONE, [15e7, 5e7]).unwrap();
         assert_close(0.04 * along, 4.061_538_461_5e-5, 1e-10);
     }

@@ -179,6 +179,7 @@ mod tests {
                     t[k] += h;
                     cones.project(t)
                 };
+                // Rounding leaves ε · 4/1e-6 = 1e-9 of the quotient, the third derivative 1e-12.
                 let (up, down) = (shifted(1e-6), shifted(-1e-6));
                 for row in 0..3 {
                     let quotient = (up[row] - down[row]) / 2e-6;

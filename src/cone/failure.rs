@@ -96,6 +96,7 @@ mod tests {
         }
     }
 
+    /// Motions of unit size, a hundred times coarser than `IDLE`, below which a velocity is round-off.
     fn close(found: &[f64], expected: &[f64]) -> bool {
         let mut pairs = found.iter().zip(expected);
         found.len() == expected.len() && pairs.all(|(a, b)| (a - b).abs() < 1e-9)

@@ -94,6 +94,7 @@ mod tests {
     fn the_condition_does_not_see_units() {
         // [[1, c], [c, 1]] has the eigenvalues 1 ± c: κ = 1.99/0.01; scaled by 1e6 on one unknown, the same.
         let (c, k) = (0.99, 1e3);
+        // Power iterations that stop early; half a percent of an order of magnitude.
         assert!((of(mat![[1.0, c], [c, 1.0]]) - 199.0).abs() < 1.0);
         assert!((of(mat![[1.0, c * k], [c * k, k * k]]) - 199.0).abs() < 1.0);
     }

@@ -271,7 +271,7 @@ mod tests {
         // (0.25/1, 0.5/2), of length 0.25 √2; the floor is a thousandth of it.
         let problem = one_contact([0.25, 0.5], 1.0, 1.0);
         let found = Judge::new(&problem).measure(&[0.0, 0.0]).certificate;
-        assert!((found.natural_map - 1000.0 / 2.0_f64.sqrt()).abs() < 1e-9);
+        assert!((found.natural_map - 1000.0 / 2.0_f64.sqrt()).abs() < 1e-12);
         // ‖û‖ = 0.25 √5 m.
         assert_eq!(found.penetration.value, 0.25);
         assert!((found.penetration.scaled - 1.0 / 5.0_f64.sqrt()).abs() < 1e-15);

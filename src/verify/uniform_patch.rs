@@ -44,6 +44,8 @@ fn measure(_quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
         moved.climb(&name, size, certified, u_x);
         pressed.climb(&name, size, certified, Measured::worst(pressures));
     }
+    // Round-off: K of 32 × 32 graded cells has a condition of some thousands; pressures are reactions over shares
+    // that are a fifth of the others, a digit more.
     Ok(vec![
         moved.judge(Criterion::EveryMesh { within: 1e-12 }),
         pressed.judge(Criterion::EveryMesh { within: 1e-11 }),

@@ -61,12 +61,14 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
                 cells[0], cells[1]
             );
             let scene = punch(cells, contrast, friction)?;
+            // Statics, certified to 1e-12, less three digits for the contrast.
             cases.push(Case::scene("corner", name, scene).presses(1e-9, FORCE));
         }
         for both in [false, true] {
             let held = if both { "clamped" } else { "held along x" };
             let name = format!("contact up to a side {held}, mu {friction}");
             let case = Case::scene("corner", name, beside_a_support(24, both, friction)?);
+            // Sums of K u, up to a thousand times as large as what is left of them.
             cases.push(case.knows("normal and support force", 1e-9, |answer| {
                 Ok(((answer.held(0, 1) - answer.normal()) / 1e6 - 1.0).abs())
             }));
