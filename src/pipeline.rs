@@ -17,7 +17,7 @@ use crate::dpana::{self, Earlier, Outcome, Settings, Shortfall, Status};
 use crate::error::Error;
 use crate::kkt::{self, Balance, Worst};
 use crate::report::vtu::{self, BodyFields};
-use crate::report::{Report, ReportParts, StageWork, Trust, replace_file};
+use crate::report::{Continuity, Report, ReportParts, StageWork, Trust, replace_file};
 use crate::scene::{Mechanics, Scene};
 
 pub use halving::Halving;
@@ -259,26 +259,41 @@ impl Solution {
     }
 
     /// Solves the contacts of a certified solution again from this many other starts, estimates how
-    /// much friction the alternation takes, and follows the state back to the last one (to rest, where
-    /// there is none) to see whether bodies jump on the way; none for a solution without certificate.
+    /// much friction the alternation takes, and tells whether bodies jump on the way here; none for a
+    /// solution without certificate.
     ///
     /// # Errors
     ///
     /// None for a solution of [`solve`].
     pub fn trust(&self, starts: usize) -> Result<Option<Trust>, Error> {
-        if self.status() != Status::Certified {
+        let Some(continuity) = self.continuity()? else {
             return Ok(None);
-        }
+        };
         let problem = self.setup.condensed.problem();
         let settings = &self.setup.settings;
         let others = dpana::other_starts(problem, settings, &self.outcome, starts)?;
         let contraction = dpana::contraction(problem, &self.outcome);
-        let way_back = match &self.step {
-            None => dpana::way_back(problem, settings, &self.outcome, &Earlier::rest(problem))?,
-            Some(step) => dpana::way_back(problem, settings, &self.outcome, step.start())?,
-        };
         let normals = &problem.offsets()[..problem.contacts()];
-        Ok(Some(Trust::new(contraction, way_back, &others, normals)))
+        Ok(Some(Trust::new(contraction, continuity, &others, normals)))
+    }
+
+    /// Whether a path of states leads here from the one before, or from rest where there is none, loads
+    /// changing in proportion; none for a solution without certificate.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn continuity(&self) -> Result<Option<Continuity>, Error> {
+        if self.status() != Status::Certified {
+            return Ok(None);
+        }
+        let problem = self.setup.condensed.problem();
+        let start = match &self.step {
+            None => &Earlier::rest(problem),
+            Some(step) => step.start(),
+        };
+        let way_back = dpana::way_back(problem, &self.setup.settings, &self.outcome, start)?;
+        Ok(Some(way_back.into()))
     }
 
     /// The load step that led here; none where the scene has no steps.

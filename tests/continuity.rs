@@ -6,6 +6,7 @@ mod square;
 use dpana::condensation::{Condensed, ContactProblem, Operator};
 use dpana::dpana::{Earlier, Outcome, Settings, Status, WayBack, solve, way_back};
 use dpana::report::Continuity;
+use dpana::scene::SceneSteps;
 use faer::mat;
 use serde_json::json;
 
@@ -63,6 +64,34 @@ fn a_square_is_dragged_from_rest_without_a_jump() {
         let scene = square::scene(16, 0.2, friction);
         let trust = dpana::solve(&scene).unwrap().trust(0).unwrap().unwrap();
         assert_eq!(trust.continuity, Continuity::Continuous, "{}", trust.words);
+    }
+}
+
+/// Pushed and then pressed on in steps, contacts stick or have just touched: nothing of theirs moves, be it by
+/// round-off.
+#[test]
+fn a_square_that_sticks_does_not_jump() {
+    for friction in [0.5, 50.0] {
+        for (pushed, pressed) in [("loads[0]", "loads[1]"), ("loads[1]", "loads[0]")] {
+            let mut scene = square::scene(16, 0.0, friction);
+            let factors = [
+                (pushed, [[0.0, 0.0], [1.0, 1.0]]),
+                (pressed, [[1.0, 0.0], [4.0, 1.0]]),
+            ];
+            let factors = factors
+                .map(|(load, rows)| (format!("bodies[0].{load}"), rows.map(Vec::from).to_vec()));
+            scene.steps = Some(SceneSteps {
+                at: vec![1.0, 2.0, 3.0, 4.0],
+                factors: factors.into(),
+                ..SceneSteps::default()
+            });
+            dpana::solve_steps(&scene, None, |solution| {
+                let found = solution.continuity()?;
+                assert_eq!(found, Some(Continuity::Continuous), "{friction}, {pushed}");
+                Ok(())
+            })
+            .unwrap();
+        }
     }
 }
 

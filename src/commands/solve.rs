@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::{self, Table, replace_file, vtu};
+use dpana::report::{self, Continuity, Table, replace_file, vtu};
 use dpana::scene::{SavedState, Scene};
 use dpana::{Solution, Status};
 
@@ -50,7 +50,8 @@ pub(crate) struct Solve {
     #[arg(long, value_name = "FILE")]
     restart: Option<PathBuf>,
     /// Solve again from N other starts and say whether they end in the same state, and how much
-    /// friction the alternation takes (of the last state, where the scene has load steps).
+    /// friction the alternation takes (of the last state, where the scene has load steps); say of every
+    /// state whether bodies jump on the way to it.
     #[arg(long, value_name = "N")]
     starts: Option<usize>,
     /// Estimate the error of the stress, which takes one more pass over all cells.
@@ -71,12 +72,17 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         None => None,
         Some(path) => Some(saved_state(path)?),
     };
+    let mut jumps = Vec::new();
     let mut states = States::new(arguments, axes, &scene, from.as_ref())?;
     let progress = Progress::new();
     let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
         if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
             let (number, all) = (step.number(), steps.at.len());
             progress.show(&format!("step {number} of {all}, at {}", step.at()));
+            // That of the last state is part of the report.
+            if arguments.starts.is_some() && number < all {
+                jumps.extend(jump(solution)?.map(|words| format!("step {number:<11}{words}")));
+            }
         }
         states.add(solution)
     });
@@ -93,10 +99,20 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         replace_file(path, &report.to_json())?;
     }
     writeln!(io::stdout(), "{}", report.summary().trim_end())?;
+    for jump in jumps {
+        writeln!(io::stdout(), "{jump}")?;
+    }
     Ok(match solution.status() {
         Status::Certified => ExitCode::SUCCESS,
         Status::NotConverged | Status::NoEquilibrium => ExitCode::from(1),
     })
+}
+
+/// What there is to say of jumps on the way to a state.
+fn jump(solution: &Solution) -> Result<Option<String>, dpana::Error> {
+    let found = solution.continuity()?;
+    let found = found.filter(|found| *found != Continuity::Continuous);
+    Ok(found.map(Continuity::words))
 }
 
 /// The states of a solve so far, and what is written of them.

@@ -84,7 +84,7 @@ impl Run<'_> {
     /// (D10).
     fn approach(&mut self) -> Option<Vec<f64>> {
         let mut path = PlanePath::of_approach(self.problem)?;
-        let end = path.follow(true);
+        let end = path.follow(0.0, true);
         self.work.path_changes += path.changes;
         match end {
             End::Reached(reaction) => Some(reaction),

@@ -10,7 +10,6 @@
 //! bodies that float, by Newton steps in as small parts as they need.
 
 use super::plane_path::{End, PlanePath};
-use super::starts::same;
 use super::{Outcome, Settings, Status, solve_near};
 use crate::condensation::ContactProblem;
 use crate::error::{Error, check_finite, check_length};
@@ -21,7 +20,14 @@ const PART: (f64, f64) = (0.125, 1e-3);
 /// Newton steps that allow a larger part.
 const FEW: usize = 5;
 
-/// Displacements that change by more than this many times their mean along the way have jumped.
+/// Where a step begins the laws are at their corners, as no contact has slipped yet: the way back in the
+/// plane ends at this part of it.
+const BEGINNING: f64 = 1e-9;
+
+/// There displacements are those of the earlier state to this part of the change of û.
+const SAME: f64 = 1e-6;
+
+/// Displacements that change by more than this many times û have jumped.
 const JUMP: f64 = 10.0;
 
 /// An earlier state, from the same reference on as the problem that follows it (C13).
@@ -96,17 +102,16 @@ pub fn way_back(
         .zip(&way.free[0])
         .map(|(end, start)| end - start);
     let drive: Vec<f64> = drive.collect();
-    let found = match PlanePath::back(&start, outcome, &drive) {
-        Some(mut path) => match path.follow(false) {
-            End::Reached(reaction) => start.displacement(&reaction),
-            End::Turned(part) => return Ok(WayBack::Turns(part)),
-            End::Lost(part) => return Ok(WayBack::Lost(part)),
-        },
-        None => return way.back(settings, outcome),
+    let Some(mut path) = PlanePath::back(&start, outcome, &drive) else {
+        return way.back(settings, outcome);
     };
-    Ok(match same(&way.free[0], &found, &earlier.displacement) {
-        true => WayBack::Continuous,
-        false => WayBack::Elsewhere,
+    Ok(match path.follow(BEGINNING, false) {
+        End::Reached(reaction) => {
+            let displacement = way.problem(BEGINNING)?.displacement(&reaction);
+            way.arrival(&displacement, SAME)
+        }
+        End::Turned(part) => WayBack::Turns(part),
+        End::Lost(part) => WayBack::Lost(part),
     })
 }
 
@@ -172,8 +177,7 @@ impl<'a> Way<'a> {
             max_sweeps: 1,
             ..*settings
         };
-        let earlier = &self.earlier.displacement;
-        let whole = distance(&outcome.verdict.displacement, earlier);
+        let most = JUMP * self.driven();
         let (mut near, mut at, mut stride) = (outcome.clone(), 1.0, PART.0);
         while at > 0.0 && stride >= PART.1 {
             let next = f64::max(at - stride, 0.0);
@@ -181,7 +185,7 @@ impl<'a> Way<'a> {
             let apart = distance(&found.verdict.displacement, &near.verdict.displacement);
             let followed = found.status == Status::Certified
                 && found.work.sweeps == 0
-                && apart <= JUMP * (at - next) * whole;
+                && apart <= most * (at - next);
             if !followed {
                 stride *= 0.5;
                 continue;
@@ -191,15 +195,25 @@ impl<'a> Way<'a> {
             }
             (near, at) = (found, next);
         }
-        // The laws are at their corners where a step begins: slip is nothing there.
-        if at > 2.0 * PART.1 {
-            return Ok(WayBack::Lost(at));
-        }
-        let apart = distance(&near.verdict.displacement, earlier);
-        Ok(match apart <= JUMP * f64::max(at, PART.1) * whole {
+        // Newton steps need more room at the corners.
+        Ok(match at > 2.0 * PART.1 {
+            true => WayBack::Lost(at),
+            false => self.arrival(&near.verdict.displacement, JUMP * f64::max(at, PART.1)),
+        })
+    }
+
+    /// Whether the displacement at the start of the way is the earlier one, to a part of what drives
+    /// the contacts on the whole way.
+    fn arrival(&self, start: &[f64], part: f64) -> WayBack {
+        match distance(start, &self.earlier.displacement) <= part * self.driven() {
             true => WayBack::Continuous,
             false => WayBack::Elsewhere,
-        })
+        }
+    }
+
+    /// Largest change of û, in metre: contacts that stick do not move by themselves.
+    fn driven(&self) -> f64 {
+        distance(&self.free[0], &self.free[1])
     }
 }
 

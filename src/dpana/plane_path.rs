@@ -37,7 +37,7 @@ const STILL: f64 = 1e-13;
 /// How a path ended.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum End {
-    /// At λ = 0, with this reaction.
+    /// At the λ asked for, with this reaction.
     Reached(Vec<f64>),
     /// Where it turned back.
     Turned(f64),
@@ -118,13 +118,13 @@ impl<'a> PlanePath<'a> {
         })
     }
 
-    /// Follows the path down to λ = 0, round its turns if it may turn.
-    pub(super) fn follow(&mut self, turning: bool) -> End {
+    /// Follows the path down to a λ, round its turns if it may turn.
+    pub(super) fn follow(&mut self, end: f64, turning: bool) -> End {
         let mut next = self.piece.line(self.parameter);
         while let Some(line) = next {
-            let (stride, broken) = match self.first_to_break(&line) {
+            let (stride, broken) = match self.first_to_break(&line, end) {
                 None => break,
-                Some((_, None)) => return End::Reached(self.piece.last()),
+                Some((_, None)) => return End::Reached(self.piece.last(end)),
                 Some((stride, Some(broken))) => (stride, broken),
             };
             self.parameter += self.way * stride;
@@ -139,10 +139,10 @@ impl<'a> PlanePath<'a> {
         End::Lost(self.parameter)
     }
 
-    /// The condition that breaks first on the way, and the distance to it; or to λ = 0. None if λ
+    /// The condition that breaks first on the way, and the distance to it; or to the end. None if λ
     /// grows without end.
-    fn first_to_break(&self, line: &Line) -> Option<(f64, Option<Condition>)> {
-        let mut first = (self.way < 0.0).then_some((self.parameter, None));
+    fn first_to_break(&self, line: &Line, end: f64) -> Option<(f64, Option<Condition>)> {
+        let mut first = (self.way < 0.0).then_some((self.parameter - end, None));
         for contact in 0..self.piece.problem.contacts() {
             for condition in self.piece.conditions(line, contact).into_iter().flatten() {
                 let rate = self.way * condition.rate;
@@ -194,7 +194,7 @@ mod tests {
     }
 
     fn assert_reaches(path: &mut PlanePath<'_>, expected: [f64; 2]) {
-        let End::Reached(found) = path.follow(true) else {
+        let End::Reached(found) = path.follow(0.0, true) else {
             unreachable!()
         };
         let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
@@ -214,7 +214,7 @@ mod tests {
         // gaps from afar, n = −0.1 − λ, never touches.
         let problem = contact(1.5, [-0.1, 0.5]);
         let mut path = PlanePath::of_approach(&problem).unwrap();
-        assert_eq!(path.follow(true), End::Reached(vec![0.0, 0.0]));
+        assert_eq!(path.follow(0.0, true), End::Reached(vec![0.0, 0.0]));
         // From û = (0.1, 0.5) every approach passes n = 0, where the open contact starts to slip along its
         // friction: u_N = n − λ + t_N − t_T = 0 with t_T = 1.5 t_N gives t_N = 2 (n − λ) < 0 only while λ
         // grows again, up to where it sticks (τ = 4 |n − λ|: λ = 0.225), and on to t = −K û.
@@ -232,7 +232,7 @@ mod tests {
         let outcome = solve(&end, &Settings::default()).unwrap();
         let start = contact(1.5, [-0.1, 0.3]);
         let mut path = PlanePath::back(&start, &outcome, &[0.2, 0.2]).unwrap();
-        let End::Turned(part) = path.follow(false) else {
+        let End::Turned(part) = path.follow(0.0, false) else {
             unreachable!()
         };
         // The end is certified to 1e-12 and its gaps are shifted by as much; λ moves five times as fast as n.

@@ -82,11 +82,11 @@ impl Piece<'_> {
         })
     }
 
-    /// The reaction at λ = 0 under G as it is, corrected by what the shift did.
-    pub(super) fn last(&self) -> Vec<f64> {
+    /// The reaction at a λ under G as it is, corrected by what the shift did.
+    pub(super) fn last(&self, parameter: f64) -> Vec<f64> {
         let columns = self.columns();
         let factor = self.matrix(&columns).partial_piv_lu();
-        let shifted = factor.solve(self.closing(&columns, 0.0));
+        let shifted = factor.solve(self.closing(&columns, parameter));
         let off = Col::from_fn(columns.len(), |i| self.own(columns[i].unknown) * shifted[i]);
         let reaction = self.reaction(&columns, &(&shifted + factor.solve(off)));
         reaction.iter().copied().collect()

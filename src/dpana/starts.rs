@@ -72,7 +72,7 @@ impl OtherStarts {
 }
 
 /// Whether two displacements are one, where nothing but the reactions moves contacts from `free`.
-pub(super) fn same(free: &[f64], one: &[f64], other: &[f64]) -> bool {
+fn same(free: &[f64], one: &[f64], other: &[f64]) -> bool {
     let (mut apart, mut moved) = (0.0_f64, 0.0_f64);
     for ((a, b), free) in one.iter().zip(other).zip(free) {
         apart = apart.max((a - b).abs());

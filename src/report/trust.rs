@@ -61,7 +61,7 @@ impl Trust {
     /// Joins both; `normals` are the contacts' normal unknowns.
     pub(crate) fn new(
         contraction: Option<Contraction>,
-        way_back: WayBack,
+        continuity: Continuity,
         others: &OtherStarts,
         normals: &[usize],
     ) -> Self {
@@ -70,7 +70,7 @@ impl Trust {
             words: String::new(),
             contraction: contraction.map(|contraction| contraction.factor),
             critical_friction_factor: contraction.and_then(|contraction| contraction.critical),
-            continuity: way_back.into(),
+            continuity,
             starts: others.starts,
             lost: others.lost,
             solutions: solutions
@@ -99,19 +99,25 @@ impl Trust {
         if let Some(multiple) = self.critical_friction_factor {
             words.push_str(&format!(", by 1 at {multiple:.2} times the friction"));
         }
-        words.push_str(&match self.continuity {
-            Continuity::Continuous => "; reached without a jump".to_owned(),
-            Continuity::Turns(part) => format!(
-                "; NO CONTINUOUS PATH leads here: there is no state like this before {part:.3} of the step"
-            ),
-            Continuity::Elsewhere => {
-                "; NO CONTINUOUS PATH leads here: going back leads to another state".to_owned()
-            }
-            Continuity::Lost(part) => {
-                format!("; followed back to {part:.3} of the step only, for jumps")
-            }
-        });
+        words.push_str(&format!("; {}", self.continuity.words()));
         words
+    }
+}
+
+impl Continuity {
+    /// As the summary says it.
+    #[must_use]
+    pub fn words(self) -> String {
+        match self {
+            Self::Continuous => "reached without a jump".to_owned(),
+            Self::Turns(part) => format!(
+                "NO CONTINUOUS PATH leads here: there is no state like this before {part:.3} of the step"
+            ),
+            Self::Elsewhere => {
+                "NO CONTINUOUS PATH leads here: going back leads to another state".to_owned()
+            }
+            Self::Lost(part) => format!("followed back to {part:.3} of the step only, for jumps"),
+        }
     }
 }
 
