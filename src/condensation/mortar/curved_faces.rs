@@ -188,6 +188,7 @@ fn the_shipped_parabola_sees_the_flat_below_it() {
     assert_eq!(mortar.nodes.len(), count(&sides[0]));
     for node in &mortar.nodes {
         let [x, y, _] = sides[0].mesh.nodes[node.node];
+        // Coordinates of tens of mm, rounded as the mesh makes them: a guard that the right nodes are seen.
         assert!((y - x * x / 200.0).abs() < 1e-9);
         let along_normal = y * (x / 100.0).hypot(1.0);
         let off = (node.initial_gap - along_normal).abs();
