@@ -1,0 +1,16 @@
+//! Answers of one body that can be known without the program: closed forms, published values, a second solver.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../square/mod.rs"]
+mod square;
+
+mod axisymmetric;
+mod cube;
+mod hertz;
+mod konter;
+mod obstacles;
+mod patch;
+mod quadratic_hertz;
+mod quadratic_ssnv128;
+mod quality;
+mod ssnv128;

@@ -1,0 +1,320 @@
+//! Which stage may know which: the sources are read and held against one table.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::rust_words::{tokens, without_tests};
+
+/// A module and what it may import of ours; `main` and its `commands` are users of the public API.
+const MAY_IMPORT: [(&str, &[&str]); 14] = [
+    ("error", &[]),
+    ("closed_forms", &["error"]),
+    ("body", &["error"]),
+    ("condensation", &["body", "error"]),
+    ("cone", &["condensation", "error"]),
+    ("kkt", &["body", "condensation", "error"]),
+    ("dpana", &["condensation", "cone", "kkt", "error"]),
+    ("report", &["body", "condensation", "dpana", "kkt", "error"]),
+    ("scene", &["body", "condensation", "dpana", "error"]),
+    (
+        "pipeline",
+        &[
+            "body",
+            "condensation",
+            "cone",
+            "dpana",
+            "kkt",
+            "report",
+            "scene",
+            "error",
+        ],
+    ),
+    (
+        "verify",
+        &[
+            "body",
+            "closed_forms",
+            "condensation",
+            "dpana",
+            "kkt",
+            "pipeline",
+            "report",
+            "scene",
+            "error",
+        ],
+    ),
+    (
+        "study",
+        &[
+            "body",
+            "condensation",
+            "dpana",
+            "pipeline",
+            "report",
+            "scene",
+            "error",
+        ],
+    ),
+    ("main", &[]),
+    ("commands", &[]),
+];
+
+/// Of what it imports, a module may name only these; its unit tests may name more.
+const ONLY: [(&str, &str, &[&str]); 2] = [
+    ("cone", "condensation", &["ContactProblem", "Floating"]),
+    ("scene", "dpana", &["Settings", "Variant"]),
+];
+
+/// Words and the only places (folders or files below `src`) that may say them; unit tests are free.
+const WORDS: [(&[&str], &[&str]); 5] = [
+    (
+        &["fs", "File", "OpenOptions"],
+        &["scene", "report", "commands"],
+    ),
+    (
+        &[
+            "serde",
+            "serde_json",
+            "serde_path_to_error",
+            "schemars",
+            "Serialize",
+            "Deserialize",
+            "JsonSchema",
+        ],
+        &["scene", "report"],
+    ),
+    (
+        &[
+            "println", "eprintln", "print", "eprint", "dbg", "stdout", "stderr",
+        ],
+        &["main", "commands"],
+    ),
+    (
+        &["unsafe", "unsafe_code", "metis_sys"],
+        &["condensation/ordering"],
+    ),
+    (&["extern"], &[]),
+];
+
+/// Names that say nothing about mechanics.
+const NO_NAMES: [&str; 9] = [
+    "utils", "util", "helpers", "common", "types", "manager", "data", "info", "misc",
+];
+
+/// One file below `src`, as words and signs; `name` is its path without ending, or its folder's.
+struct Source {
+    name: String,
+    tokens: Vec<String>,
+}
+
+impl Source {
+    fn new(name: &str, text: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            tokens: tokens(text),
+        }
+    }
+
+    /// The folder or file directly below `src`.
+    fn module(&self) -> &str {
+        self.name.split('/').next().unwrap()
+    }
+
+    /// What breaks the table, in words.
+    fn violations(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        let (module, shipped) = (self.module(), without_tests(&self.tokens));
+        let root = module == "lib";
+        for path in imports(&self.tokens) {
+            let known = MAY_IMPORT.iter().find(|row| row.0 == module);
+            let allowed = known.is_some_and(|row| row.1.contains(&path[0].as_str()));
+            if !root && !allowed && path[0] != module {
+                found.push(format!("{} imports {}", self.name, path.join("::")));
+            }
+        }
+        for path in imports(&shipped) {
+            let only = ONLY
+                .iter()
+                .find(|rule| (rule.0, rule.1) == (module, &path[0]));
+            if only.is_some_and(|rule| path.len() < 2 || !rule.2.contains(&path[1].as_str())) {
+                found.push(format!("{} imports {}", self.name, path.join("::")));
+            }
+        }
+        if longest_climb(&shipped) >= self.name.split('/').count() {
+            found.push(format!("{} reaches the crate's root by super", self.name));
+        }
+        for (words, places) in WORDS {
+            let here = |place: &str| self.name == place || module == place;
+            if !places.iter().any(|place| here(place)) {
+                let said = shipped
+                    .iter()
+                    .filter(|token| words.contains(&token.as_str()));
+                found.extend(said.map(|word| format!("{} says {word}", self.name)));
+            }
+        }
+        if self.name != "cone/clarabel" && names_clarabel(&shipped) {
+            found.push(format!("{} names Clarabel", self.name));
+        }
+        let named = declared_modules(&self.tokens).chain(self.name.split('/').map(str::to_owned));
+        let vague = named.filter(|name| NO_NAMES.contains(&name.as_str()));
+        found.extend(vague.map(|name| format!("{}: a module named {name}", self.name)));
+        found
+    }
+}
+
+/// Every path behind `crate::`, braces multiplied out.
+fn imports(tokens: &[String]) -> Vec<Vec<String>> {
+    let starts = (0..tokens.len())
+        .filter(|&at| tokens[at] == "crate" && tokens.get(at + 1).is_some_and(|next| next == "::"));
+    starts.flat_map(|at| expand(tokens, at + 2).0).collect()
+}
+
+/// The paths of a use tree that starts at a token, and the token after it.
+fn expand(tokens: &[String], start: usize) -> (Vec<Vec<String>>, usize) {
+    let is = |at: usize, sign: &str| tokens.get(at).is_some_and(|token| token == sign);
+    if !is(start, "{") {
+        let own = tokens.get(start).cloned().unwrap_or_default();
+        if !is(start + 1, "::") {
+            return (vec![vec![own]], start + 1);
+        }
+        let (mut paths, end) = expand(tokens, start + 2);
+        paths
+            .iter_mut()
+            .for_each(|path| path.insert(0, own.clone()));
+        return (paths, end);
+    }
+    let (mut paths, mut at) = (Vec::new(), start + 1);
+    while at < tokens.len() && !is(at, "}") {
+        let (inner, end) = expand(tokens, at);
+        paths.extend(inner);
+        at = end + usize::from(is(end, ","));
+    }
+    (paths, at + 1)
+}
+
+/// Most `super` in one path.
+fn longest_climb(tokens: &[String]) -> usize {
+    let mut longest = 0;
+    for at in 0..tokens.len() {
+        let path = tokens[at..].chunks(2);
+        longest = longest.max(path.take_while(|step| *step == ["super", "::"]).count());
+    }
+    longest
+}
+
+/// The crate, and not our file of the same name.
+fn names_clarabel(tokens: &[String]) -> bool {
+    (0..tokens.len()).any(|at| {
+        let before: Vec<&str> = tokens[..at]
+            .iter()
+            .rev()
+            .take(2)
+            .map(String::as_str)
+            .collect();
+        let ours = matches!(before[..], ["mod", ..] | ["::", "super" | "self" | "cone"]);
+        tokens[at] == "clarabel" && !ours
+    })
+}
+
+fn declared_modules(tokens: &[String]) -> impl Iterator<Item = String> {
+    let pairs = tokens.windows(2).filter(|pair| pair[0] == "mod");
+    pairs.map(|pair| pair[1].clone())
+}
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            found.extend(files(&path));
+        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            found.push(path);
+        }
+    }
+    found.sort();
+    found
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let source = |path: PathBuf| {
+        let name = path.strip_prefix(&root).unwrap().with_extension("");
+        let name = name.to_str().unwrap().replace('\\', "/");
+        let name = name.strip_suffix("/mod").unwrap_or(&name);
+        Source::new(name, &fs::read_to_string(path).unwrap())
+    };
+    files(&root).into_iter().map(source).collect()
+}
+
+#[test]
+fn every_stage_imports_only_what_the_table_allows() {
+    let found: Vec<String> = sources().iter().flat_map(Source::violations).collect();
+    assert!(found.is_empty(), "\n{}", found.join("\n"));
+}
+
+#[test]
+fn every_module_has_its_row_and_the_pipeline_uses_its_stages() {
+    let sources = sources();
+    let found: BTreeSet<&str> = sources.iter().map(Source::module).collect();
+    let expected: BTreeSet<&str> = MAY_IMPORT.iter().map(|row| row.0).chain(["lib"]).collect();
+    assert_eq!(found, expected);
+    // The reader of imports does see them: these stages cannot do without each other.
+    for (module, stage) in [("dpana", "cone"), ("kkt", "body"), ("pipeline", "scene")] {
+        let of_module = sources.iter().filter(|source| source.module() == module);
+        let mut paths = of_module.flat_map(|source| imports(&source.tokens));
+        assert!(
+            paths.any(|path| path[0] == stage),
+            "{module} without {stage}"
+        );
+    }
+}
+
+#[test]
+fn a_forbidden_word_or_import_is_found_wherever_it_hides() {
+    let count = |name: &str, text: &str| Source::new(name, text).violations().len();
+    assert_eq!(
+        count(
+            "kkt/judge",
+            "use crate::{body::Mesh, cone::{Role, NormalHalfStep}};"
+        ),
+        2
+    );
+    assert_eq!(count("kkt/judge", "fn f() { crate::dpana::solve(); }"), 1);
+    assert_eq!(count("kkt", "use super::cone;"), 1);
+    assert_eq!(count("kkt/vtu/x", "use super::super::super::cone;"), 1);
+    assert_eq!(
+        count(
+            "cone/normal",
+            "use crate::condensation::{ContactProblem, Operator};"
+        ),
+        1
+    );
+    assert_eq!(count("cone/normal", "use ::clarabel::solver;"), 1);
+    assert_eq!(count("cone/normal", "use super::clarabel::ConeProgram;"), 0);
+    assert_eq!(
+        count(
+            "dpana/sweep",
+            "let c = '\"'; println!(\"{}\", r#\"x\"#); let s = std::fs::read;"
+        ),
+        2
+    );
+    assert_eq!(count("body/mesh", "use crate::Error; mod utils { }"), 2);
+    assert_eq!(count("body/mesh", "unsafe { }"), 1);
+}
+
+#[test]
+fn comments_strings_lifetimes_and_unit_tests_are_free() {
+    let text = r##"
+        //! println! crate::cone
+        /* unsafe */ use super::material; // std::fs
+        fn f<'a>(x: &'a str) -> &'a str { "println! \" crate::cone unsafe" }
+        const RAW: &str = r#"crate::cone " unsafe"#;
+        #[cfg(test)]
+        mod tests { fn g() { println!("{}", std::fs::read_to_string("x")); } }
+    "##;
+    assert_eq!(
+        Source::new("body/mesh", text).violations(),
+        Vec::<String>::new()
+    );
+}

@@ -1,0 +1,18 @@
+//! What holds for the crate as a whole: who may import whom, the same bits every time, nothing done that a
+//! scene does not need, what reports, studies and the gallery say.
+#![allow(clippy::panic, clippy::unwrap_used)]
+
+#[path = "../program/mod.rs"]
+mod program;
+#[path = "../square/mod.rs"]
+mod square;
+
+mod architecture;
+mod cases;
+mod only_what_a_scene_needs;
+mod repeatable;
+mod report;
+mod rust_words;
+mod study;
+mod units;
+mod verify;

@@ -1,0 +1,55 @@
+//! A damaged mesh file is refused or still a mesh, and never stops the program.
+
+use dpana::body::gmsh;
+use proptest::prelude::*;
+
+const CUBE: &str = include_str!("../data/meshes/D_patch3d_4_3.msh");
+
+/// A unit square in MSH 2.2, with a named line and a named surface.
+const SQUARE: &str = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n\
+    $PhysicalNames\n2\n1 5 \"bottom\"\n2 6 \"body\"\n$EndPhysicalNames\n\
+    $Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n$EndNodes\n\
+    $Elements\n2\n1 1 2 5 1 1 2\n2 3 2 6 1 1 2 3 4\n$EndElements\n";
+
+/// Replaces the word that starts at or behind a fraction of the text.
+fn replace_word(text: &str, fraction: f64, word: &str) -> String {
+    let at = (fraction * text.len() as f64) as usize;
+    let start = text[at..]
+        .find(|c: char| !c.is_whitespace())
+        .map_or(text.len(), |skipped| at + skipped);
+    let end = text[start..]
+        .find(char::is_whitespace)
+        .map_or(text.len(), |length| start + length);
+    format!("{}{word}{}", &text[..start], &text[end..])
+}
+
+proptest! {
+    #[test]
+    fn a_word_gone_wrong_never_breaks_the_reader(
+        solid in any::<bool>(),
+        fraction in 0.0..1.0,
+        word in prop_oneof![
+            Just(""), Just("0"), Just("-1"), Just("18446744073709551615"), Just("nan"),
+            Just("$EndNodes"), Just("é\u{0}"), Just("2147483648"), Just("-2147483648"), Just("\n"),
+        ],
+    ) {
+        let text = replace_word(if solid { CUBE } else { SQUARE }, fraction, word);
+        if let Ok(mesh) = gmsh::parse(&text, "damaged.msh") {
+            for cell in mesh.cells() {
+                prop_assert!(cell.nodes.iter().all(|&node| node < mesh.nodes.len()));
+            }
+        }
+    }
+
+    #[test]
+    fn bytes_gone_wrong_never_break_the_reader(
+        at in 0..SQUARE.len(),
+        byte in any::<u8>(),
+    ) {
+        let mut bytes = SQUARE.as_bytes().to_vec();
+        bytes[at] = byte;
+        if let Ok(mesh) = gmsh::parse_bytes(&bytes, "damaged.msh") {
+            prop_assert!(mesh.cell_count() <= 1);
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! Whatever comes in: bad and hostile input is refused with place and cure, what ships is solved.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../program/mod.rs"]
+mod program;
+#[path = "../stacks/mod.rs"]
+mod stacks;
+
+mod bad_input;
+mod bad_pairs;
+mod command_line;
+mod damaged_mesh;
+mod hostile_input;
+mod shipped_scenes;
+mod unsolvable_scenes;

@@ -1,0 +1,15 @@
+//! The method on problems that were made for it: random ones, hard ones, those of other codes; and its judge.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../square/mod.rs"]
+mod square;
+
+mod bare_problems;
+mod continuity;
+mod hard_cases;
+mod judge;
+mod limits;
+mod random_equilibria;
+mod random_problems;
+mod random_stacks;
+mod rates;

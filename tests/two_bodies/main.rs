@@ -1,0 +1,17 @@
+//! Bodies on bodies: what is exact stays exact, what one side gives the other receives, and what nothing
+//! but contact holds stands or is named.
+#![allow(clippy::unwrap_used)]
+
+#[path = "../rounds/mod.rs"]
+mod rounds;
+#[path = "../stacks/mod.rs"]
+mod stacks;
+
+mod apart;
+mod balance;
+mod floating;
+mod goodman_coupled;
+mod hertz;
+mod patch;
+mod quadratic;
+mod several;
