@@ -31,7 +31,7 @@ const MATERIAL: Elastic = Elastic {
 const STICK: f64 = 0.7;
 
 /// c/a if friction's share in the pressure is not neglected: the integral equations of the half-plane,
-/// solved in `tests/goodman_coupled.rs`.
+/// solved in `tests/two_bodies/goodman_coupled.rs`.
 const COUPLED: f64 = 0.6925;
 
 /// R of the parabola and how far its top goes down in the end, in mm.
