@@ -11,8 +11,8 @@ mod dragged_cube;
 use std::error::Error;
 use std::time::Instant;
 
+use dpana::alternation::{Outcome, Variant, solve};
 use dpana::condensation::Condensed;
-use dpana::dpana::{Outcome, Variant, solve};
 use dpana::{ContactProblem, Settings, Status};
 use dragged_cube::dragged_cube;
 

@@ -10,7 +10,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use dpana::ContactProblem;
-use dpana::dpana::{Outcome, Settings, Status, solve};
+use dpana::alternation::{Outcome, Settings, Status, solve};
 use dpana::scene::BareProblem;
 use faer::Side;
 

@@ -1,8 +1,8 @@
 //! Certified frictional contact of elastic bodies by condensation and cone programs.
 //!
-//! An elastic body meets rigid obstacles along its contact surface. Reactions `t` and
-//! displacements `u` there obey the laws of Signorini and Coulomb, and the body enters
-//! only through its compliance `G`:
+//! Elastic bodies meet rigid obstacles and each other along their contact surface. Reactions `t` and
+//! relative displacements `u` there obey the laws of Signorini and Coulomb, and the bodies enter
+//! only through their compliance `G`:
 //!
 //! ```text
 //! (L1)  t_N ≤ 0,   u_N − g₀ ≤ 0,   t_N (u_N − g₀) = 0
@@ -17,37 +17,44 @@
 //! | stage | module | what it makes |
 //! |---|---|---|
 //! | scene | [`scene`] | bodies and contact pairs from JSON or code |
-//! | mechanics | [`body`] | stiffness and load of a body |
-//! | condensation | [`condensation`] | the [`ContactProblem`]: G, û, gaps, friction |
+//! | mechanics | [`body`], [`mesh_file`] | mesh, stiffness and load of a body |
+//! | contact surface | [`contact`] | contacts: frames, gaps, the nodes of either side |
+//! | condensation | [`condensation`] | compliance G and free displacement û, seen from the contacts |
+//! | the problem | [`problem`] | the [`ContactProblem`]: G, û, gaps, friction |
 //! | cone programs | [`cone`] | the two half-steps, normal and friction |
-//! | outer loop | [`mod@dpana`] | reactions, by sweeps and a Newton finish |
+//! | limit analysis | [`limit`](mod@limit) | whether contact can hold the bodies at all |
+//! | outer loop | [`alternation`] | reactions, by sweeps and a Newton finish |
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
 //! | closed forms | [`closed_forms`] | answers that need no mesh |
 //! | study | [`mod@study`] | a scene over meshes, tolerances, friction and loops |
 //! | verification | [`mod@verify`] | scenes whose answers are known, on ladders of meshes |
 //!
-//! A problem that another code condensed goes straight to [`dpana::solve`](dpana::solve()).
+//! A problem that another code condensed goes straight to [`alternation::solve`](alternation::solve()).
 //! The README has a program for either way, the signs, and the scene format.
 
+pub mod alternation;
 pub mod body;
 pub mod closed_forms;
 pub mod condensation;
 pub mod cone;
-pub mod dpana;
+pub mod contact;
 pub mod error;
 pub mod kkt;
+pub mod limit;
+pub mod mesh_file;
 pub mod pipeline;
+pub mod problem;
 pub mod report;
 pub mod scene;
 pub mod study;
 pub mod verify;
 
-pub use condensation::ContactProblem;
-pub use dpana::{Outcome, Settings, Status};
+pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep, sweep_watched};
+pub use problem::ContactProblem;
 pub use scene::Scene;
 pub use study::study;
 pub use verify::verify;

@@ -67,7 +67,7 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
     let condensed = Condensed::new(bodies, &mechanics.contacts)?;
     let start = Instant::now();
     let problem = condensed.problem();
-    let outcome = dpana::dpana::solve(problem, &mechanics.settings)?;
+    let outcome = dpana::alternation::solve(problem, &mechanics.settings)?;
     let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
     let mut balanced = true;
     for state in BodyState::of_bodies(bodies, &condensed, &outcome.reaction, &displacements) {

@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::boundary::Owners;
-use super::check::{check_indices, check_vector};
+use super::entries::{check_indices, check_vector};
 use super::{Body, Facet, Load};
 use crate::error::{Error, check_finite};
 
@@ -116,7 +116,7 @@ fn check_once(
 mod tests {
     use super::*;
     use crate::body::CellKind;
-    use crate::body::samples::{assert_says, complaint, facets};
+    use crate::body::tests::samples::{assert_says, complaint, facets};
 
     #[test]
     fn loads_on_nothing_inside_backwards_or_twice_are_refused() {

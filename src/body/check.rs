@@ -5,9 +5,11 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::applied::{check_loads, check_supports};
-use super::quadrature::{Point, positions};
+use super::entries::{check_indices, check_vector};
+use super::quadrature::positions;
+use super::reference::Point;
 use super::{Axis, Body, Cell, CellKind, Mesh};
-use crate::error::{Error, check_finite, check_length};
+use crate::error::{Error, check_length};
 
 /// Least Jacobian accepted, on the scale where a right-angled cell of any aspect has 1.
 const FLAT: f64 = 1e-10;
@@ -185,46 +187,10 @@ fn check_lone_nodes(body: &Body) -> Result<(), Error> {
     }
 }
 
-/// Refuses a component out of the plane of a plane body, and one that is not finite.
-pub(super) fn check_vector(
-    body: &Body,
-    place: impl Fn() -> String,
-    components: &[f64; 3],
-) -> Result<(), Error> {
-    if components.iter().any(|x| !x.is_finite()) {
-        return check_finite(&place(), components);
-    }
-    if body.mesh.dimension == 2 && components[2] != 0.0 {
-        return Err(Error::OutOfRange {
-            place: format!("{}[2]", place()),
-            value: components[2],
-            accepted: "0, for the body is plane",
-        });
-    }
-    Ok(())
-}
-
-pub(super) fn check_indices(
-    place: impl Fn() -> String,
-    what: &'static str,
-    indices: &[usize],
-    count: usize,
-) -> Result<(), Error> {
-    match indices.iter().find(|index| **index >= count) {
-        None => Ok(()),
-        Some(index) => Err(Error::UnknownIndex {
-            place: place(),
-            what,
-            index: *index,
-            count,
-        }),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::samples::{assert_says, complaint, facets};
+    use crate::body::tests::samples::{assert_says, complaint, facets};
     use crate::body::{Load, Material, Model, Support};
 
     #[test]

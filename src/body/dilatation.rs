@@ -185,7 +185,7 @@ impl Patches {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::samples::{block, distorted};
+    use crate::body::tests::samples::{block, distorted};
 
     #[test]
     fn only_nearly_incompressible_cells_that_feel_it_average() {

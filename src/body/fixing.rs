@@ -110,7 +110,7 @@ mod tests {
     use faer::Mat;
 
     use super::*;
-    use crate::body::samples::{block, solve};
+    use crate::body::tests::samples::{block, solve};
     use crate::body::{CellKind, Load, Support, free_modes, prescribed};
 
     const KINDS: [CellKind; 4] = [

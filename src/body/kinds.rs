@@ -2,8 +2,7 @@
 
 use std::sync::LazyLock;
 
-use super::CellKind;
-use super::quadrature::points;
+use super::gauss::points;
 use super::reference::{Family, Reference};
 
 /// Most nodes of a facet.
@@ -226,6 +225,31 @@ static HEX27: Reference = Reference {
 
 /// Facets of plane and of solid cells.
 static FACETS: [&[&Reference]; 2] = [&[&EDGE2, &EDGE3], &[&TRI3, &QUAD4, &TRI6, &QUAD8, &QUAD9]];
+
+/// The cells, with Gmsh's order of nodes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CellKind {
+    /// Triangle of constant strain.
+    Tri3,
+    /// Bilinear quadrilateral.
+    Quad4,
+    /// Tetrahedron of constant strain.
+    Tet4,
+    /// Trilinear hexahedron.
+    Hex8,
+    /// Quadratic triangle.
+    Tri6,
+    /// Quadratic quadrilateral without a middle node.
+    Quad8,
+    /// Biquadratic quadrilateral.
+    Quad9,
+    /// Quadratic tetrahedron.
+    Tet10,
+    /// Quadratic hexahedron with nodes at corners and on edges.
+    Hex20,
+    /// Triquadratic hexahedron.
+    Hex27,
+}
 
 impl CellKind {
     /// The entry of the kind.

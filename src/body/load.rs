@@ -106,7 +106,7 @@ impl NodalForces<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::samples::{block, facets};
+    use crate::body::tests::samples::{block, facets};
     use crate::body::{CellKind, Model};
 
     /// Resultant of the nodal forces.

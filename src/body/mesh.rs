@@ -2,32 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::kinds::facet_reference;
-
-/// The cells, with Gmsh's order of nodes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum CellKind {
-    /// Triangle of constant strain.
-    Tri3,
-    /// Bilinear quadrilateral.
-    Quad4,
-    /// Tetrahedron of constant strain.
-    Tet4,
-    /// Trilinear hexahedron.
-    Hex8,
-    /// Quadratic triangle.
-    Tri6,
-    /// Quadratic quadrilateral without a middle node.
-    Quad8,
-    /// Biquadratic quadrilateral.
-    Quad9,
-    /// Quadratic tetrahedron.
-    Tet10,
-    /// Quadratic hexahedron with nodes at corners and on edges.
-    Hex20,
-    /// Triquadratic hexahedron.
-    Hex27,
-}
+use super::kinds::{CellKind, facet_reference};
 
 /// One cell: its kind and its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

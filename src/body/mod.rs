@@ -21,7 +21,7 @@
 //! those of the whole circumference.
 //!
 //! A kind of cell is an entry of the table in `kinds.rs`; its shape functions are those of its
-//! family in `reference.rs`, its points of quadrature in `quadrature.rs`.
+//! family in `reference.rs`, its points of quadrature in `gauss.rs`.
 
 mod applied;
 mod axis;
@@ -29,14 +29,13 @@ mod boundary;
 mod cell;
 mod check;
 mod dilatation;
+mod entries;
 mod facet;
 mod fixing;
-pub mod gmsh;
+mod gauss;
 mod incidence;
 mod kinds;
 mod load;
-#[cfg(test)]
-mod locking;
 mod material;
 pub mod mesh;
 mod quadrature;
@@ -44,15 +43,13 @@ mod recovery;
 mod reference;
 mod rigid;
 mod rigid_modes;
-#[cfg(test)]
-mod rings;
-#[cfg(test)]
-pub(crate) mod samples;
 mod sparsity;
 mod stiffness;
 mod stress;
 mod structured;
 mod support;
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub(crate) use axis::Axis;
 pub use axis::held_by_axis;
@@ -62,9 +59,10 @@ pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;
 
 pub use fixing::fixing_dofs;
+pub use kinds::CellKind;
 pub use load::{load_vector, nodal_forces};
 pub use material::Lame;
-pub use mesh::{Cell, CellKind, Facet, Group, Mesh};
+pub use mesh::{Cell, Facet, Group, Mesh};
 pub use recovery::{StressRecovery, stress_recovery};
 pub use rigid_modes::{FreeModes, RigidMode, free_modes};
 pub use stiffness::stiffness;

@@ -168,7 +168,7 @@ impl Compliance<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::samples::distorted;
+    use crate::body::tests::samples::distorted;
     use crate::body::{CellKind, stiffness};
     use nalgebra::{Matrix3, Vector3};
 

@@ -16,8 +16,6 @@
 
 use std::sync::LazyLock;
 
-use super::quadrature::Point;
-
 /// How shape functions follow from the nodes' positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Family {
@@ -44,6 +42,31 @@ pub(crate) struct Reference {
     pub(crate) facets: &'static [&'static [usize]],
     /// The rule of its integrals.
     pub(crate) rule: LazyLock<Vec<Point>>,
+}
+
+/// A quadrature point of the reference cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Point {
+    /// Weight `w_q`.
+    pub(crate) weight: f64,
+    /// Where it is.
+    pub(crate) position: [f64; 3],
+    /// Values `N_a`.
+    pub(crate) shape: Vec<f64>,
+    /// Derivatives `∂N_a/∂ξ_j`.
+    pub(crate) derivatives: Vec<[f64; 3]>,
+}
+
+impl Point {
+    /// The shape functions of a cell at a reference position.
+    pub(crate) fn at(cell: &Reference, position: [f64; 3], weight: f64) -> Self {
+        Self {
+            weight,
+            position,
+            shape: cell.shape(position),
+            derivatives: cell.shape_derivatives(position),
+        }
+    }
 }
 
 impl Reference {

@@ -156,7 +156,7 @@ impl Held {
 mod tests {
     #![allow(clippy::unwrap_used)]
 
-    use crate::body::samples::{block, body, support};
+    use crate::body::tests::samples::{block, body, support};
     use crate::body::{Body, CellKind, Mesh, Model, RigidMode, free_modes, prescribed};
 
     fn modes(body: &Body) -> Vec<RigidMode> {

@@ -103,7 +103,7 @@ fn orthonormal(motions: &[Motion], metric: &SMatrix<f64, 6, 6>) -> Vec<Motion> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::body::samples::{block, support};
+    use crate::body::tests::samples::{block, support};
     use crate::body::{CellKind, prescribed};
 
     fn modes_of(body: &Body) -> FreeModes {

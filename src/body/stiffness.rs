@@ -118,7 +118,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::body::samples::{block, distorted, facets, hold, solve};
+    use crate::body::tests::samples::{block, distorted, facets, hold, solve};
     use crate::body::{CellKind, Load, Model};
 
     /// Distorted blocks of every kind in every model, with and without averaged dilatation.

@@ -12,8 +12,8 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::dilatation::{Dilatation, Patches, mean_gradients};
-use super::quadrature::{Mapped, Point, mapped, positions};
-use super::reference::Family;
+use super::quadrature::{Mapped, mapped, positions};
+use super::reference::{Family, Point};
 use super::{Body, Cell, Lame, Model};
 
 /// Stress at the centre of each cell, in pascal, in the order xx, yy, zz, yz, xz, xy; z is
@@ -184,7 +184,7 @@ impl Field<'_> {
 mod tests {
     use super::*;
     use crate::body::CellKind;
-    use crate::body::samples::{block, distorted};
+    use crate::body::tests::samples::{block, distorted};
 
     /// Nodal values of `u = H x`.
     fn linear(body: &Body, h: Matrix3<f64>) -> Vec<f64> {

@@ -95,7 +95,7 @@ fn contradiction(supports: [&Support; 2], node: usize, axis: usize, values: [f64
 mod tests {
     use super::*;
     use crate::body::CellKind;
-    use crate::body::samples::block;
+    use crate::body::tests::samples::block;
 
     fn support(place: &str, nodes: &[usize], displacement: [Option<f64>; 3]) -> Support {
         Support {

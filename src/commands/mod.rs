@@ -1,5 +1,6 @@
 //! The commands, one per file: its arguments, then what is done with them.
 
+mod cases;
 mod check;
 mod limit;
 mod outputs;
@@ -7,13 +8,12 @@ mod progress;
 mod schema;
 mod solve;
 mod study;
-mod sweep;
 mod verify;
 
+pub(crate) use cases::{Sweep, sweep};
 pub(crate) use check::{Check, check};
 pub(crate) use limit::{Limit, limit};
 pub(crate) use schema::schema;
 pub(crate) use solve::{Solve, solve};
 pub(crate) use study::{Study, study};
-pub(crate) use sweep::{Sweep, sweep};
 pub(crate) use verify::{Verify, verify};

@@ -19,9 +19,6 @@ use faer::{Accum, Mat, get_global_parallelism};
 
 use super::factor::Factor;
 
-/// A row of B over the body's degrees of freedom: `(degree of freedom, coefficient)`.
-pub(crate) type BorderRow = Vec<(usize, f64)>;
-
 impl Factor {
     /// `G = W Wᵀ` (C17), in m/N; both triangles are filled.
     pub(crate) fn border_compliance(&self) -> Mat<f64> {

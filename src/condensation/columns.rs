@@ -8,8 +8,10 @@
 use faer::sparse::SymbolicSparseColMatRef;
 use sprs::CsMat;
 
-use super::border::BorderRow;
-use super::frames::Frames;
+/// A row of B over the body's degrees of freedom: `(degree of freedom, coefficient)`.
+pub(crate) type BorderRow = Vec<(usize, f64)>;
+
+use super::local_axes::Frames;
 use super::ordering::{HELD, Ordering};
 
 /// The diagonal C of a border (C17), over the largest compliance of a single unknown: beyond that of

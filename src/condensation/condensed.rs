@@ -5,40 +5,18 @@ use std::time::Instant;
 
 use faer::Mat;
 
+use super::CondensationWork;
+use super::PartMotion;
 use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::rigid_bodies::{floating, part_motions};
 use super::supported::{OfInterface, SupportedBody};
-use super::{ContactPair, ContactProblem, ContactSurface, Operator, PartMotion};
-use crate::body::{self, Body};
+use crate::body;
+use crate::body::Body;
+use crate::contact::{ContactPair, ContactSurface};
 use crate::error::{Error, check_length};
-
-/// Counts and wall time of a condensation, over all bodies.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CondensationWork {
-    /// Sparse factorisations, one per body.
-    pub factorisations: usize,
-    /// Pairs of substitutions for loads and given displacements, one per body.
-    pub substitutions: usize,
-    /// Unknowns of the supported bodies, contact unknowns included.
-    pub unknowns: usize,
-    /// Unknowns that the bodies are condensed onto: displacements of nodes on the contact surface, or
-    /// what contacts see of them where that is less (C17).
-    pub condensed_unknowns: usize,
-    /// Stored entries of the factors L.
-    pub factor_entries: usize,
-    /// Checks, contact surface, stiffness and load, in second.
-    pub assembly_seconds: f64,
-    /// Order of elimination, in second.
-    pub ordering_seconds: f64,
-    /// Factorisation, symbolic and numeric, in second.
-    pub factorisation_seconds: f64,
-    /// Its numeric part, in second.
-    pub numeric_seconds: f64,
-    /// Trailing block, compliance and free displacement, in second.
-    pub condensation_seconds: f64,
-}
+use crate::problem::{ContactProblem, Operator};
 
 /// Bodies, their contact surface, and the factors that join them; copies share the factors.
 #[derive(Clone, Debug)]
@@ -206,9 +184,9 @@ fn join(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::body::samples::{body, distorted, facets};
+    use crate::body::tests::samples::{body, distorted, facets};
     use crate::body::{CellKind, Facet, Load, Material, Mesh, Model, Support, graded, rectangle};
-    use crate::condensation::{ContactNode, Obstacle, Opposite};
+    use crate::contact::{ContactNode, Obstacle, Opposite};
     use faer::linalg::solvers::Solve;
     use nalgebra::{Rotation3, Vector3};
 

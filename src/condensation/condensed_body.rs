@@ -11,10 +11,10 @@ use std::sync::Arc;
 
 use sprs::CsMat;
 
-use super::action::Action;
 use super::factor::Factor;
-use super::frames::Frames;
 use super::grounding::Grounding;
+use super::load_case::Action;
+use super::local_axes::Frames;
 use super::ordering::Ordering;
 
 /// A body, the factor that joins it to its interface, and what acts on it; copies share the factor.

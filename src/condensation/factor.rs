@@ -26,9 +26,8 @@ use faer::sparse::linalg::cholesky::supernodal::{
 use faer::{Mat, MatRef, get_global_parallelism};
 use sprs::CsMat;
 
-use super::border::BorderRow;
-use super::columns::Columns;
-use super::frames::Frames;
+use super::columns::{BorderRow, Columns};
+use super::local_axes::Frames;
 use super::ordering::Ordering;
 
 /// A pivot this small against the diagonal entry it is left of is round-off.

@@ -13,7 +13,8 @@ use std::borrow::Cow;
 use faer::Mat;
 use sprs::CsMat;
 
-use crate::body::{self, Body, RigidMode};
+use crate::body;
+use crate::body::{Body, RigidMode};
 
 /// Free modes of one body over its degrees of freedom, and the springs that hold them.
 #[derive(Debug)]

@@ -14,24 +14,15 @@ use std::collections::BTreeMap;
 
 use faer::Mat;
 
-use super::action::Action;
-use super::border::BorderRow;
-use super::{ContactNode, ContactSurface};
+use super::columns::BorderRow;
+use super::load_case::Action;
+use super::local_axes::InterfaceNode;
+use crate::contact::{ContactNode, ContactSurface};
 
 /// How many times as many unknowns the nodes have as the contacts that move with them, for a body to
 /// be condensed onto these (C17): dense work falls by its third power, while the factor gets as
 /// many rows more.
 const MANY: usize = 2;
-
-/// A node of a body whose displacement the contact problem needs.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct InterfaceNode {
-    pub(crate) node: usize,
-    /// Orthonormal rows.
-    pub(crate) frame: [[f64; 3]; 3],
-    /// The contact problem needs the first rows of the frame, this many.
-    pub(crate) kept: usize,
-}
 
 /// One body's share in the contact problem.
 #[derive(Clone, Debug, PartialEq)]

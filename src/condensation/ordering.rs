@@ -168,7 +168,7 @@ fn dissect(graph: &Graph) -> Option<Vec<usize>> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::lattice::Lattice;
+    use crate::condensation::tests::lattice::Lattice;
 
     #[test]
     fn every_unknown_is_eliminated_once_and_the_contact_comes_last_in_its_order() {

@@ -5,9 +5,11 @@ use std::borrow::Borrow;
 use faer::Mat;
 
 use super::grounding::Grounding;
-use super::{ContactNode, ContactPair, ContactSurface, Floating};
-use crate::body::{self, Body};
+use crate::body;
+use crate::body::Body;
+use crate::contact::{ContactNode, ContactPair, ContactSurface};
 use crate::error::Error;
+use crate::problem::Floating;
 
 /// Contacts whose two sides move alike, as those between two faces of one part, feel nothing of a mode but the
 /// round-off of the mortar's weights: displacements below this part of the mode's largest.
@@ -201,8 +203,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::CellKind;
-    use crate::body::samples::{block, facets};
-    use crate::condensation::{Obstacle, Opposite};
+    use crate::body::tests::samples::{block, facets};
+    use crate::contact::{Obstacle, Opposite};
 
     /// The block of 2 × 1 m (2D) on a floor, free.
     fn loose() -> (Body, RigidBodies) {

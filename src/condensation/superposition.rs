@@ -6,8 +6,9 @@
 //! ```
 
 use super::Condensed;
-use super::action::Action;
-use crate::body::{self, Body, Load, Support};
+use super::load_case::Action;
+use crate::body;
+use crate::body::{Body, Load, Support};
 use crate::error::{Error, check_finite, check_length};
 
 /// A load or a support, by the number of its body and its own there.

@@ -5,14 +5,15 @@ use std::time::Instant;
 use faer::Mat;
 use sprs::CsMat;
 
+use super::CondensationWork;
 use super::condensed_body::{CondensedBody, FactoredBody};
 use super::factor::{Breakdown, Factor};
-use super::frames::Frames;
 use super::grounding::Grounding;
-use super::interface::{Interface, InterfaceNode};
+use super::interface::Interface;
+use super::local_axes::{Frames, InterfaceNode};
 use super::ordering::{Ordering, Role};
-use super::{CondensationWork, Operator};
 use crate::error::Error;
+use crate::problem::Operator;
 
 /// The assembled body, before it is condensed.
 pub(super) struct SupportedBody<'a> {
@@ -143,7 +144,7 @@ impl SupportedBody<'_> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::bed::{Bed, dense};
+    use crate::condensation::tests::bed::{Bed, dense};
     use faer::Mat;
     use faer::linalg::solvers::Solve;
 

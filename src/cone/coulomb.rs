@@ -15,8 +15,8 @@ use faer::MatRef;
 
 use super::clarabel::{Columns, ConeSizes, ConicProgram};
 use super::generators::Generators;
-use super::velocity_basis::{VelocityBasis, norm, product};
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
+use crate::problem::velocity_basis::{VelocityBasis, norm, product};
 
 /// (H8) for one problem, set up once for many shifts and loads.
 pub struct CoulombProgram<'a> {
@@ -183,9 +183,9 @@ const SMALLEST: f64 = 1e-6;
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::Operator;
-    use crate::cone::RigidContacts;
-    use crate::cone::blocks::Blocks;
+    use crate::limit::RigidContacts;
+    use crate::limit::tests::blocks::Blocks;
+    use crate::problem::Operator;
     use faer::Mat;
 
     /// Compliance of every contact unknown, in m/N.

@@ -1,7 +1,7 @@
 //! The friction half-step (H2): friction with normal reactions held.
 
 use super::reduced::{Half, HalfStepWork, Role, WorkingSet};
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// A disc this much smaller than the largest is a point: its reaction is zero.
 const POINT: f64 = 1e-12;
@@ -123,7 +123,7 @@ fn norm(vector: &[f64]) -> f64 {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::Operator;
+    use crate::problem::Operator;
     use faer::Mat;
 
     /// Three uncoupled contacts in 3D, G = 1, μ = 1/4, with t_N = −10, −10, 0: discs of 2.5, 2.5 and a point.

@@ -1,7 +1,7 @@
 //! The normal half-step (H1): normal reactions with friction held.
 
 use super::reduced::{Half, HalfStepWork, Role, WorkingSet};
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// (H1) for one problem.
 ///
@@ -82,7 +82,7 @@ impl<'a> NormalHalfStep<'a> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::Operator;
+    use crate::problem::Operator;
     use faer::mat;
 
     /// G = [[2, 1], [1, 2]], û = (1, −3), g₀ = 0: contact 0 is pressed with t = −1/2,

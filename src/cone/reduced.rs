@@ -11,7 +11,7 @@ use faer::MatRef;
 
 use super::clarabel::ConeProgram;
 use super::elimination::{Elimination, gather};
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// A contact's place in the program of a half-step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,7 +215,7 @@ impl ReducedProgram {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::Operator;
+    use crate::problem::Operator;
     use faer::mat;
 
     #[test]

@@ -10,8 +10,8 @@
 //! and only the sums along it have to vanish.
 
 use super::body_state::BodyState;
-use super::certificate::Worst;
-use super::resultant::{Defect, Resultant, length, nodal_lengths};
+use super::certificate::{Defect, Worst, length};
+use super::resultant::{Resultant, nodal_lengths};
 use crate::body::Model;
 use crate::error::Error;
 
@@ -141,8 +141,9 @@ mod tests {
 
     use super::*;
     use crate::body::{Body, Mesh};
-    use crate::condensation::{ContactNode, ContactProblem, ContactSurface, Operator};
-    use crate::kkt::samples::lid_on_box;
+    use crate::contact::{ContactNode, ContactSurface};
+    use crate::kkt::tests::samples::lid_on_box;
+    use crate::problem::{ContactProblem, Operator};
 
     /// A spring of 4 N/m from a held node (3, 1) down to a contact node (3, 0), which a
     /// load of 10 N pushes 0.5 m down onto a plane: the spring takes 2 N, the plane 8 N.

@@ -4,8 +4,10 @@ use sprs::CsMat;
 
 use super::sides::{block, check_nodes, check_surface, global_force, shares};
 use crate::body::Body;
-use crate::condensation::{Condensed, ContactProblem, ContactSurface};
+use crate::condensation::Condensed;
+use crate::contact::ContactSurface;
 use crate::error::{Error, check_length};
+use crate::problem::ContactProblem;
 
 /// A body with everything that acts on it; unknown `node · dimension + axis`.
 #[derive(Clone, Copy, Debug)]

@@ -1,7 +1,5 @@
 //! What the judge says: residuals, states of the contacts, the certificate.
 
-use super::resultant::Defect;
-
 /// What a contact does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ContactStatus {
@@ -68,6 +66,28 @@ pub struct Certificate {
     pub reaction_energy: f64,
 }
 
+/// What is left of a sum that should vanish.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Defect {
+    /// Length of the sum, in newton or newton metre.
+    pub value: f64,
+    /// The same, divided by the sum of the lengths of what was added.
+    pub scaled: f64,
+}
+
+impl Defect {
+    /// The length of a sum of vectors, compared with `scale`.
+    pub(super) fn of(parts: &[[f64; 3]], scale: f64) -> Self {
+        let sum = [0, 1, 2].map(|axis| parts.iter().map(|part| part[axis]).sum());
+        Self::over(infinite_if_nan(length(sum)), scale)
+    }
+
+    pub(super) fn over(value: f64, scale: f64) -> Self {
+        let scaled = ratio(value, scale);
+        Self { value, scaled }
+    }
+}
+
 impl Certificate {
     /// The stopping test: the larger of natural map and equilibrium, both relative.
     #[must_use]
@@ -85,6 +105,16 @@ pub struct Verdict {
     pub status: Vec<ContactStatus>,
     /// The residuals.
     pub certificate: Certificate,
+}
+
+/// Length of a vector.
+pub(super) fn length([x, y, z]: [f64; 3]) -> f64 {
+    let square = x * x + y * y + z * z;
+    // `hypot` takes its time; it is for squares that leave the range of numbers.
+    match square.is_normal() || [x, y, z] == [0.0; 3] {
+        true => square.sqrt(),
+        false => x.hypot(y).hypot(z),
+    }
 }
 
 /// `part / whole`, and 0/0 = 0: nothing is violated where nothing acts.

@@ -5,7 +5,7 @@
 //! rounding errors are summed beside them give it as if computed in twice the precision
 //! (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955–1988, algorithm 5.3).
 
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// A sum and what rounding has taken from it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -56,7 +56,7 @@ mod tests {
     use faer::mat;
 
     use super::*;
-    use crate::condensation::{Floating, Operator};
+    use crate::problem::{Floating, Operator};
 
     #[test]
     fn what_plain_sums_lose_is_kept() {

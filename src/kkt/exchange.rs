@@ -9,11 +9,13 @@
 //! a friction force acts on the two sides along parallel lines, an initial gap g₀ apart. Where curved
 //! sides end at a symmetry plane, their moments cancel with those of the mirror image only.
 
-use super::resultant::{Defect, Resultant, length};
+use super::certificate::{Defect, length};
+use super::resultant::Resultant;
 use super::sides::{block, check_sides, check_surface, global_force, shares};
 use crate::body::Body;
-use crate::condensation::{ContactPair, ContactProblem, ContactSurface, Opposite};
+use crate::contact::{ContactPair, ContactSurface, Opposite};
 use crate::error::Error;
+use crate::problem::ContactProblem;
 
 /// Sum of the contact forces of a pair on either side.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -114,7 +116,7 @@ impl Sums {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::kkt::samples::{lid_on_box, pairs};
+    use crate::kkt::tests::samples::{lid_on_box, pairs};
 
     #[test]
     fn what_the_lid_gives_the_box_receives() {

@@ -6,8 +6,8 @@
 
 use faer::MatRef;
 
+use super::certificate::Defect;
 use super::natural_map::largest;
-use super::resultant::Defect;
 
 /// Largest departure from (K8) over the free modes, in newton; scaled by the largest sum of
 /// all forces on a mode, each counted positive. Modes are compared at amplitudes that move

@@ -2,10 +2,9 @@
 
 use faer::MatRef;
 
-use super::certificate::ratio;
+use super::certificate::{Defect, ratio};
 use super::floating::unanswered;
 use super::impossibility::check_blocks;
-use super::resultant::Defect;
 use crate::error::{Error, check_length};
 
 /// What a reaction that is said to hold a load leaves open; all zero where it holds.

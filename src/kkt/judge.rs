@@ -1,16 +1,15 @@
 //! The judge of a contact problem: every law, for one reaction after the other.
 
 use super::bipotential::bipotential_gap;
-use super::certificate::{Certificate, ContactStatus, Verdict, Worst, ratio};
+use super::certificate::{Certificate, ContactStatus, Defect, Verdict, Worst, ratio};
 use super::coulomb::coulomb_residual;
 use super::depth::deep_displacement;
 use super::floating::unanswered;
 use super::natural_map::{largest, largest_block, norm};
-use super::resultant::Defect;
 use super::scales::{Scales, compliance_product, dot, local_force};
 use super::signorini::signorini_residual;
 use super::state::{ContactState, contact_states};
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// A residual below this needs no more digits than plain sums have.
 const SEEN: f64 = 1e-13;
@@ -188,7 +187,7 @@ mod tests {
     use faer::{Mat, mat};
 
     use super::*;
-    use crate::condensation::{Floating, Operator};
+    use crate::problem::{Floating, Operator};
 
     /// One contact with K = [[2, 1], [1, 1]] in (normal, tangent), G = [[1, −1], [−1, 2]],
     /// μ = 0.5, no gap; lengths are multiplied by `length`, forces by `force`.

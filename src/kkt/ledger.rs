@@ -18,8 +18,8 @@
 
 use super::body_state::BodyState;
 use super::sides::block;
-use crate::condensation::ContactProblem;
 use crate::error::{Error, check_length};
+use crate::problem::ContactProblem;
 
 /// Work and energy of a load step (K9), in joule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -215,7 +215,7 @@ impl ContactStep<'_> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::condensation::Operator;
+    use crate::problem::Operator;
     use faer::Mat;
 
     /// One contact with μ = 0.5 that slips by 0.5 m while its obstacle follows it by 0.1 m.

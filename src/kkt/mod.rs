@@ -37,22 +37,22 @@ mod judge;
 mod ledger;
 mod natural_map;
 mod resultant;
-#[cfg(test)]
-mod samples;
 mod scales;
 mod sides;
 mod signorini;
 mod state;
 mod surface_departure;
+#[cfg(test)]
+pub(crate) mod tests;
 
 pub use balance::{Balance, WorstNode, balance};
 pub use body_state::BodyState;
-pub use certificate::{Certificate, ContactStatus, Verdict, Worst};
+pub use certificate::{Certificate, ContactStatus, Defect, Verdict, Worst};
 pub use exchange::{Exchange, exchange};
 pub use held::{Held, held};
 pub use impossibility::{Impossibility, impossibility};
 pub use judge::Judge;
 pub use ledger::{Account, ContactStep, Ledger};
-pub use resultant::{Defect, Resultant};
+pub use resultant::Resultant;
 pub use sides::{global_force, relative_displacement};
 pub use surface_departure::surface_departure;

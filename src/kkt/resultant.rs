@@ -1,6 +1,6 @@
 //! Sums of nodal forces and of their moments.
 
-use super::certificate::{infinite_if_nan, ratio};
+use super::certificate::length;
 
 /// Sum of forces and of their moments.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -9,15 +9,6 @@ pub struct Resultant {
     pub force: [f64; 3],
     /// Moment about the origin, in newton metre.
     pub moment: [f64; 3],
-}
-
-/// What is left of a sum that should vanish.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Defect {
-    /// Length of the sum, in newton or newton metre.
-    pub value: f64,
-    /// The same, divided by the sum of the lengths of what was added.
-    pub scaled: f64,
 }
 
 impl Resultant {
@@ -41,32 +32,9 @@ impl Resultant {
     }
 }
 
-impl Defect {
-    /// The length of a sum of vectors, compared with `scale`.
-    pub(super) fn of(parts: &[[f64; 3]], scale: f64) -> Self {
-        let sum = [0, 1, 2].map(|axis| parts.iter().map(|part| part[axis]).sum());
-        Self::over(infinite_if_nan(length(sum)), scale)
-    }
-
-    pub(super) fn over(value: f64, scale: f64) -> Self {
-        let scaled = ratio(value, scale);
-        Self { value, scaled }
-    }
-}
-
 /// `‖v‖` node by node, from `dimension` entries per node.
 pub(super) fn nodal_lengths(values: &[f64], dimension: usize) -> impl Iterator<Item = f64> + '_ {
     nodal(values, dimension).map(length)
-}
-
-/// Length of a vector.
-pub(super) fn length([x, y, z]: [f64; 3]) -> f64 {
-    let square = x * x + y * y + z * z;
-    // `hypot` takes its time; it is for squares that leave the range of numbers.
-    match square.is_normal() || [x, y, z] == [0.0; 3] {
-        true => square.sqrt(),
-        false => x.hypot(y).hypot(z),
-    }
 }
 
 /// The vectors node by node, padded with zeros to three axes.
@@ -78,6 +46,7 @@ fn nodal(values: &[f64], dimension: usize) -> impl Iterator<Item = [f64; 3]> + '
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kkt::Defect;
 
     #[test]
     fn a_couple_has_a_moment_and_no_force() {

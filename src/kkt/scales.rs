@@ -15,7 +15,7 @@ use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 
 use super::natural_map::{Step, largest, largest_block, norm};
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// Smallest reaction that residuals are relative to, as a part of the load force. With
 /// less, the round-off of `û` alone would keep a just grazing contact from passing.
@@ -143,7 +143,7 @@ mod tests {
     use faer::mat;
 
     use super::*;
-    use crate::condensation::Operator;
+    use crate::problem::Operator;
 
     fn problem(
         tangents: &[usize],

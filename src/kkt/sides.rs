@@ -6,8 +6,9 @@
 //! ```
 
 use crate::body::Body;
-use crate::condensation::{ContactNode, ContactProblem, ContactSurface};
+use crate::contact::{ContactNode, ContactSurface};
 use crate::error::{Error, check_length};
+use crate::problem::ContactProblem;
 
 /// A node that moves with a contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -132,7 +133,7 @@ pub(super) fn check_sides(surface: &ContactSurface, bodies: &[Body]) -> Result<(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::kkt::samples::lid_on_box;
+    use crate::kkt::tests::samples::lid_on_box;
 
     fn contact() -> ContactNode {
         lid_on_box(0.0).1.nodes.remove(0)

@@ -1,6 +1,6 @@
 //! One contact as the laws see it: its reaction and displacement, normal apart from tangent.
 
-use crate::condensation::ContactProblem;
+use crate::problem::ContactProblem;
 
 /// State of one contact; unused tangents are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -69,7 +69,7 @@ mod tests {
     use faer::Mat;
 
     use super::*;
-    use crate::condensation::Operator;
+    use crate::problem::Operator;
 
     #[test]
     fn blocks_of_one_two_and_three_unknowns_are_cut_normal_first() {

@@ -4,8 +4,9 @@ use super::certificate::Worst;
 use super::resultant::nodal_lengths;
 use super::sides::{block, check_sides, check_surface, relative_displacement};
 use crate::body::Body;
-use crate::condensation::{ContactProblem, ContactSurface};
+use crate::contact::ContactSurface;
 use crate::error::{Error, check_length};
+use crate::problem::ContactProblem;
 
 /// Largest difference between the relative displacement of a contact in the recovered
 /// bodies (K5) and in the condensed problem, in metre; scaled by the largest displacement.
@@ -55,7 +56,7 @@ pub fn surface_departure(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
-    use crate::kkt::samples::lid_on_box;
+    use crate::kkt::tests::samples::lid_on_box;
 
     /// The lid goes down by 0.5 m and the box by 0.25 m along x: u = (0.5, −0.25).
     fn departure(displacements: &[Vec<f64>], condensed: [f64; 2]) -> Result<Worst, Error> {

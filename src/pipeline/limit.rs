@@ -1,12 +1,13 @@
 //! The limit pipeline: scene → rigid bodies → cone programs → judge.
 
-use crate::body::{self, Body, Load};
-use crate::condensation::{ContactPair, RigidBodies};
-use crate::cone::{LeastFriction, Limit, RigidContacts};
+use crate::body::{Body, Load};
+use crate::condensation::RigidBodies;
+use crate::contact::ContactPair;
 use crate::error::Error;
-use crate::kkt;
-use crate::report::{self, Beyond, Limits, LoadLimit};
+use crate::limit::{LeastFriction, Limit, RigidContacts};
+use crate::report::{Beyond, Limits, LoadLimit};
 use crate::scene::{Mechanics, Scene};
+use crate::{body, kkt, report};
 
 /// The judge believes reactions that leave less than this open, relative to them.
 const HOLDS: f64 = 1e-9;

@@ -3,11 +3,11 @@
 use super::halving::Halving;
 use super::substep::{Course, State};
 use super::{Setup, Solution};
-use crate::dpana::{self, Earlier, Status};
+use crate::alternation::{Earlier, Status};
 use crate::error::{Error, check_length};
 use crate::kkt::Ledger;
-use crate::report;
 use crate::scene::{Exact, Fingerprint, LoadHistory, SavedState, Scene, exact, plain};
+use crate::{alternation, report};
 
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
 /// first state that is not certified, and returns that state.
@@ -34,7 +34,7 @@ pub fn solve_steps(
             return Err(at_scene(not_of_this_scene("a state", "a scene with steps")));
         }
         let problem = setup.condensed.problem();
-        let outcome = dpana::solve(problem, &setup.settings).map_err(at_scene)?;
+        let outcome = alternation::solve(problem, &setup.settings).map_err(at_scene)?;
         let solution = setup.recover(outcome)?;
         each(&solution)?;
         return Ok(solution);

@@ -3,10 +3,13 @@
 use std::sync::Arc;
 
 use super::Setup;
-use crate::condensation::{ContactProblem, ContactSurface, Superposition};
-use crate::dpana::{self, Earlier, Outcome, Status};
+use crate::alternation;
+use crate::alternation::{Earlier, Outcome, Status};
+use crate::condensation::Superposition;
+use crate::contact::ContactSurface;
 use crate::error::Error;
 use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
+use crate::problem::ContactProblem;
 use crate::scene::LoadHistory;
 
 /// Bodies on their way through a load history.
@@ -91,8 +94,8 @@ impl<'a> Course<'a> {
         let (condensed, settings) = (&setup.condensed, &setup.settings);
         let problem = condensed.problem();
         let outcome = match from.account {
-            None => dpana::solve(problem, settings)?,
-            Some(_) => dpana::solve_from(problem, settings, &from.reaction, &from.motion)?,
+            None => alternation::solve(problem, settings)?,
+            Some(_) => alternation::solve_from(problem, settings, &from.reaction, &from.motion)?,
         };
         let displacement = &outcome.verdict.displacement;
         let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;

@@ -7,6 +7,7 @@
 
 mod certificate;
 mod contacts;
+mod digits;
 mod failure;
 mod figure;
 mod file;
@@ -51,11 +52,13 @@ pub use trust::{Continuity, Trust, TrustedState};
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{Seconds, StageWork, Sweep, Work};
 
+use crate::alternation::Outcome;
 use crate::body::Body;
-use crate::condensation::{ContactPair, ContactProblem, ContactSurface, PartMotion};
-use crate::dpana::{self, Outcome};
+use crate::condensation::PartMotion;
+use crate::contact::{ContactPair, ContactSurface};
 use crate::error::{Error, check_length};
-use crate::kkt;
+use crate::problem::ContactProblem;
+use crate::{alternation, kkt};
 
 /// A solved scene, as it is reported.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -235,12 +238,12 @@ impl Report {
     }
 }
 
-impl From<dpana::Status> for Status {
-    fn from(status: dpana::Status) -> Self {
+impl From<alternation::Status> for Status {
+    fn from(status: alternation::Status) -> Self {
         match status {
-            dpana::Status::Certified => Self::Certified,
-            dpana::Status::NotConverged => Self::NotConverged,
-            dpana::Status::NoEquilibrium => Self::NoEquilibrium,
+            alternation::Status::Certified => Self::Certified,
+            alternation::Status::NotConverged => Self::NotConverged,
+            alternation::Status::NoEquilibrium => Self::NoEquilibrium,
         }
     }
 }

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use super::summary::size;
-use crate::dpana::{self, Outcome, Status};
+use super::digits::size;
+use crate::alternation;
+use crate::alternation::{Outcome, Status};
 
 /// Why a solve ended as it did, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -67,27 +68,27 @@ impl Shortfall {
     }
 }
 
-impl From<dpana::Shortfall> for Shortfall {
-    fn from(shortfall: dpana::Shortfall) -> Self {
+impl From<alternation::Shortfall> for Shortfall {
+    fn from(shortfall: alternation::Shortfall) -> Self {
         let (reason, advice) = match shortfall {
-            dpana::Shortfall::SweepLimit => (
+            alternation::Shortfall::SweepLimit => (
                 Reason::SweepLimit,
                 "raise settings.max_sweeps, or leave it out".to_owned(),
             ),
-            dpana::Shortfall::Stalled { sweeps } => (
+            alternation::Shortfall::Stalled { sweeps } => (
                 Reason::Stalled,
                 format!(
                     "{sweeps} sweeps without a better state: with this much friction there may be \
                      several states, or one that smaller load steps lead to; try steps, or less friction"
                 ),
             ),
-            dpana::Shortfall::ConeSolver => (
+            alternation::Shortfall::ConeSolver => (
                 Reason::ConeSolver,
                 "numbers of very different size in one scene: look for a misplaced unit among \
                  stiffnesses, loads and gaps"
                     .to_owned(),
             ),
-            dpana::Shortfall::IllConditioned { condition } => (
+            alternation::Shortfall::IllConditioned { condition } => (
                 Reason::IllConditioned,
                 format!(
                     "condition {} of the compliance: look for contacts that stand twice, nearly \
@@ -95,7 +96,7 @@ impl From<dpana::Shortfall> for Shortfall {
                     size(condition)
                 ),
             ),
-            dpana::Shortfall::OutOfBalance { body, part } => (
+            alternation::Shortfall::OutOfBalance { body, part } => (
                 Reason::OutOfBalance,
                 format!(
                     "nothing carries {} of the largest force on bodies[{body}]: look for cells that are \
@@ -103,7 +104,7 @@ impl From<dpana::Shortfall> for Shortfall {
                     size(part)
                 ),
             ),
-            dpana::Shortfall::RoundOff { floor } => (
+            alternation::Shortfall::RoundOff { floor } => (
                 Reason::RoundOff,
                 format!(
                     "no residual much below {} can be had in double precision: raise \

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::digits::{number, size};
 use super::{Balance, Defect, Failure, Report, Shortfall, Status};
 
 /// How many contact pairs the summary lists before it only counts them.
@@ -291,28 +292,6 @@ fn vector(components: &[f64]) -> String {
     match components.as_slice() {
         [single] => single.clone(),
         several => format!("({})", several.join(", ")),
-    }
-}
-
-/// Two digits: the size of what should be zero.
-pub(super) fn size(value: f64) -> String {
-    if value == 0.0 {
-        "0".into()
-    } else {
-        format!("{value:.1e}")
-    }
-}
-
-/// Six digits, in powers of ten only where plain digits would be long.
-fn number(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 {
-        "0".into()
-    } else if (1e-3..1e5).contains(&size) {
-        let decimals = (5 - size.log10().floor() as i32).max(0) as usize;
-        format!("{value:.decimals$}")
-    } else {
-        format!("{value:.5e}")
     }
 }
 

@@ -5,8 +5,9 @@ use serde::Serialize;
 use super::ReportParts;
 use super::certificate::{Defect, Resultant, in_dimension};
 use super::contacts::ContactForce;
-use crate::condensation::ContactNode;
-use crate::kkt::{self, ContactStatus};
+use crate::contact::ContactNode;
+use crate::kkt;
+use crate::kkt::ContactStatus;
 
 /// Totals over contacts; vectors in global axes, forces act on the first surface of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::dpana::{Contraction, OtherStarts, Outcome, WayBack};
+use crate::alternation::{Contraction, OtherStarts, Outcome, WayBack};
 use crate::kkt::ContactStatus;
 
 /// What other starts led to, and how much friction the alternation takes.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::ReportParts;
-use crate::dpana::SweepRecord;
+use crate::alternation::SweepRecord;
 
 /// What the stages around the outer loop took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -9,8 +9,8 @@ use faer::Mat;
 use serde::Deserialize;
 
 use super::json;
-use crate::condensation::{ContactProblem, Operator};
 use crate::error::{Error, check_length};
+use crate::problem::{ContactProblem, Operator};
 
 /// Most unknowns of a problem: W is dense in memory, 3.2 GB there.
 const MOST_UNKNOWNS: usize = 20_000;

@@ -3,10 +3,10 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::selection::{self, norm, vector};
-use super::spelling;
+use super::selection::{norm, vector};
+use super::{selection, spelling};
 use crate::body::Body;
-use crate::condensation::{ContactPair, Obstacle, Opposite};
+use crate::contact::{ContactPair, Obstacle, Opposite};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.

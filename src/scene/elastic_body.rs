@@ -6,7 +6,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{MeshSource, SceneLoad, SceneSupport, selection};
-use crate::body::{self, Body, Material, Mesh, Model};
+use crate::body;
+use crate::body::{Body, Material, Mesh, Model};
 use crate::error::Error;
 
 /// An elastic body.

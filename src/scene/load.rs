@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de};
 
-use super::selection::{self, vector};
+use super::selection;
+use super::selection::vector;
 use crate::body::{Load, Mesh};
 use crate::error::Error;
 

@@ -6,8 +6,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de};
 
 use super::read;
-use crate::body::{CellKind, Mesh, box_mesh, gmsh, graded, rectangle};
+use crate::body::{CellKind, Mesh, box_mesh, graded, rectangle};
 use crate::error::Error;
+use crate::mesh_file::gmsh;
 
 /// Most nodes of all bodies together: beyond it a slip of the pen would fill the memory.
 pub(super) const MOST_NODES: usize = 20_000_000;

@@ -31,9 +31,9 @@ use std::path::{Path, PathBuf};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use crate::alternation::{Settings, Variant};
 use crate::body::Body;
-use crate::condensation::ContactPair;
-use crate::dpana::{Settings, Variant};
+use crate::contact::ContactPair;
 use crate::error::Error;
 
 pub use bare::BareProblem;
@@ -252,7 +252,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::{CellKind, Group, Load, Mesh, Model, rectangle};
-    use crate::condensation::{Obstacle, Opposite};
+    use crate::contact::{Obstacle, Opposite};
 
     /// Two by two quads on a square of side 2 m, pressed on a line.
     const SQUARE: &str = r#"{

@@ -8,7 +8,8 @@ use serde::Deserialize;
 use super::spelling;
 use super::table::Table;
 use crate::body::Body;
-use crate::condensation::{ContactPair, Driven, Opposite};
+use crate::condensation::Driven;
+use crate::contact::{ContactPair, Opposite};
 use crate::error::{Error, check_finite};
 
 /// A load history, quasi-static: one state per instant, each with the law of friction on the

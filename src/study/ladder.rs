@@ -4,9 +4,9 @@ use std::time::Instant;
 
 use super::plan::Plan;
 use super::tensor_grid::TensorGrid;
-use crate::condensation::ContactProblem;
 use crate::error::Error;
 use crate::pipeline::{Solution, solve};
+use crate::problem::ContactProblem;
 use crate::report::{KnownTotal, Report, StageSeconds, StudiedMesh, Table};
 use crate::scene::Scene;
 

@@ -5,9 +5,10 @@ use std::time::Instant;
 
 use super::ladder::SHORT;
 use super::plan::Plan;
-use crate::condensation::ContactProblem;
-use crate::dpana::{self, Mixing, Outcome, Settings, Sweeps, Variant};
+use crate::alternation;
+use crate::alternation::{Mixing, Outcome, Settings, Sweeps, Variant};
 use crate::error::Error;
+use crate::problem::ContactProblem;
 use crate::report::{Part, StudiedRun};
 
 /// Loops by name: the default first, the baseline last.
@@ -139,7 +140,7 @@ impl Reference {
             max_sweeps: plan.sweeps,
             variant: Variant::Default,
         };
-        let reaction = dpana::solve(&problem, &settings)?.reaction;
+        let reaction = alternation::solve(&problem, &settings)?.reaction;
         Ok(Self {
             problem,
             friction,
@@ -215,7 +216,7 @@ impl LoopRun<'_> {
             variant: self.variant,
         };
         let start = Instant::now();
-        let outcome = dpana::solve(&problem, &settings)?;
+        let outcome = alternation::solve(&problem, &settings)?;
         let seconds = match self.variant {
             Variant::Nsgs => outcome.work.seconds.predict,
             _ => start.elapsed().as_secs_f64(),

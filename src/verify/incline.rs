@@ -3,9 +3,9 @@
 use super::Entry;
 use super::ladder::{Ladder, Measured};
 use super::scenes::{STEEL, body, on, plane, solved};
+use crate::alternation::Status;
 use crate::body::{CellKind, Mesh, box_mesh, graded, rectangle};
 use crate::closed_forms::Incline;
-use crate::dpana::Status;
 use crate::error::Error;
 use crate::report::{Criterion, VerifiedQuantity};
 use crate::scene::{Scene, SceneLoad};

@@ -8,12 +8,12 @@ use super::cattaneo_mindlin::{Compared, Ladders, compared};
 use super::growing::{falling, growing};
 use super::ladder::{Ladder, Measured};
 use super::scenes::{body, hold, pair};
+use crate::alternation::Status;
 use crate::body::{CellKind, Group, Mesh, box_mesh};
 use crate::closed_forms::{
     CattaneoMindlin, Elastic, HertzSphere, contact_modulus, mindlin_displacement,
     tangential_compliance,
 };
-use crate::dpana::Status;
 use crate::error::Error;
 use crate::pipeline::solve_steps;
 use crate::report::{Criterion, Report, VerifiedQuantity};

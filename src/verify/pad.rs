@@ -3,9 +3,9 @@
 use super::Entry;
 use super::ladder::{Ladder, Measured};
 use super::scenes::{body, on, plane, solved};
+use crate::alternation::Status;
 use crate::body::{CellKind, box_mesh, graded};
 use crate::closed_forms::Elastic;
-use crate::dpana::Status;
 use crate::error::Error;
 use crate::report::{Criterion, VerifiedQuantity};
 use crate::scene::{Scene, SceneLoad};

@@ -1,8 +1,8 @@
 //! Scenes of the gallery, in few words.
 
+use crate::alternation::Status;
 use crate::body::Mesh;
 use crate::closed_forms::Elastic;
-use crate::dpana::Status;
 use crate::error::Error;
 use crate::pipeline::{Solution, solve};
 use crate::report::Report;

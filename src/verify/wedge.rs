@@ -3,9 +3,9 @@
 use super::Entry;
 use super::ladder::{Ladder, Measured};
 use super::scenes::{STEEL, body, on, plane, solved};
+use crate::alternation::Status;
 use crate::body::{CellKind, graded, rectangle};
 use crate::closed_forms::wedge_pull;
-use crate::dpana::Status;
 use crate::error::Error;
 use crate::pipeline::limit;
 use crate::report::{Beyond, Criterion, VerifiedQuantity};

@@ -1,9 +1,9 @@
 //! The oscillation of the contact pressure: of second order where the pressure is smooth, and of the
 //! size of the checkerboard where there is one.
 
+use dpana::alternation::Outcome;
 use dpana::body::{self, CellKind, graded};
 use dpana::condensation::Condensed;
-use dpana::dpana::Outcome;
 use dpana::kkt::{self, BodyState, Judge};
 use dpana::report::{Report, ReportParts, StageWork};
 use dpana::scene::{MeshSource, Scene};
@@ -61,7 +61,7 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         .iter()
         .map(|state| kkt::balance(state).unwrap())
         .collect();
-    let solved = dpana::dpana::solve(problem, &Settings::default()).unwrap();
+    let solved = dpana::alternation::solve(problem, &Settings::default()).unwrap();
     let outcome = Outcome {
         verdict: Judge::new(problem).measure(&reaction),
         reaction,

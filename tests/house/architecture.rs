@@ -1,29 +1,61 @@
 //! Which stage may know which: the sources are read and held against one table.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::rust_words::{tokens, without_tests};
 
 /// A module and what it may import of ours; `main` and its `commands` are users of the public API.
-const MAY_IMPORT: [(&str, &[&str]); 14] = [
+const MAY_IMPORT: [(&str, &[&str]); 18] = [
     ("error", &[]),
     ("closed_forms", &["error"]),
     ("body", &["error"]),
-    ("condensation", &["body", "error"]),
-    ("cone", &["condensation", "error"]),
-    ("kkt", &["body", "condensation", "error"]),
-    ("dpana", &["condensation", "cone", "kkt", "error"]),
-    ("report", &["body", "condensation", "dpana", "kkt", "error"]),
-    ("scene", &["body", "condensation", "dpana", "error"]),
+    ("mesh_file", &["body", "error"]),
+    ("contact", &["body", "mesh_file", "error"]),
+    ("problem", &["error"]),
+    ("condensation", &["body", "contact", "problem", "error"]),
+    ("cone", &["problem", "limit", "error"]),
+    ("limit", &["problem", "error"]),
+    (
+        "kkt",
+        &["body", "contact", "problem", "condensation", "error"],
+    ),
+    ("alternation", &["problem", "cone", "limit", "kkt", "error"]),
+    (
+        "report",
+        &[
+            "body",
+            "contact",
+            "problem",
+            "condensation",
+            "alternation",
+            "kkt",
+            "error",
+        ],
+    ),
+    (
+        "scene",
+        &[
+            "body",
+            "mesh_file",
+            "contact",
+            "problem",
+            "condensation",
+            "alternation",
+            "error",
+        ],
+    ),
     (
         "pipeline",
         &[
             "body",
+            "contact",
+            "problem",
             "condensation",
             "cone",
-            "dpana",
+            "limit",
+            "alternation",
             "kkt",
             "report",
             "scene",
@@ -35,8 +67,10 @@ const MAY_IMPORT: [(&str, &[&str]); 14] = [
         &[
             "body",
             "closed_forms",
+            "contact",
+            "problem",
             "condensation",
-            "dpana",
+            "alternation",
             "kkt",
             "pipeline",
             "report",
@@ -48,8 +82,10 @@ const MAY_IMPORT: [(&str, &[&str]); 14] = [
         "study",
         &[
             "body",
+            "contact",
+            "problem",
             "condensation",
-            "dpana",
+            "alternation",
             "pipeline",
             "report",
             "scene",
@@ -61,10 +97,18 @@ const MAY_IMPORT: [(&str, &[&str]); 14] = [
 ];
 
 /// Of what it imports, a module may name only these; its unit tests may name more.
-const ONLY: [(&str, &str, &[&str]); 2] = [
-    ("cone", "condensation", &["ContactProblem", "Floating"]),
-    ("scene", "dpana", &["Settings", "Variant"]),
+const ONLY: [(&str, &str, &[&str]); 3] = [
+    (
+        "cone",
+        "problem",
+        &["ContactProblem", "Floating", "velocity_basis"],
+    ),
+    ("cone", "limit", &[]),
+    ("scene", "alternation", &["Settings", "Variant"]),
 ];
+
+/// What only unit tests may import: a shipped file of the first may not name the second.
+const TESTS_ONLY: [(&str, &str); 1] = [("contact", "mesh_file")];
 
 /// Words and the only places (folders or files below `src`) that may say them; unit tests are free.
 const WORDS: [(&[&str], &[&str]); 5] = [
@@ -121,10 +165,18 @@ impl Source {
         self.name.split('/').next().unwrap()
     }
 
+    /// What is compiled into the library: nothing of a folder of tests.
+    fn shipped(&self) -> Vec<String> {
+        match self.name.split('/').any(|part| part == "tests") {
+            true => Vec::new(),
+            false => without_tests(&self.tokens),
+        }
+    }
+
     /// What breaks the table, in words.
     fn violations(&self) -> Vec<String> {
         let mut found = Vec::new();
-        let (module, shipped) = (self.module(), without_tests(&self.tokens));
+        let (module, shipped) = (self.module(), self.shipped());
         let root = module == "lib";
         for path in imports(&self.tokens) {
             let known = MAY_IMPORT.iter().find(|row| row.0 == module);
@@ -137,7 +189,10 @@ impl Source {
             let only = ONLY
                 .iter()
                 .find(|rule| (rule.0, rule.1) == (module, &path[0]));
-            if only.is_some_and(|rule| path.len() < 2 || !rule.2.contains(&path[1].as_str())) {
+            let tests_only = TESTS_ONLY.contains(&(module, path[0].as_str()));
+            if tests_only
+                || only.is_some_and(|rule| path.len() < 2 || !rule.2.contains(&path[1].as_str()))
+            {
                 found.push(format!("{} imports {}", self.name, path.join("::")));
             }
         }
@@ -191,6 +246,84 @@ fn expand(tokens: &[String], start: usize) -> (Vec<Vec<String>>, usize) {
         at = end + usize::from(is(end, ","));
     }
     (paths, at + 1)
+}
+
+/// Every path of ours that a shipped file names, from the crate's root: `super` is followed up.
+fn absolute_paths(source: &Source) -> Vec<Vec<String>> {
+    let tokens = source.shipped();
+    let is = |at: usize, sign: &str| tokens.get(at).is_some_and(|token| token == sign);
+    let parts: Vec<String> = source.name.split('/').map(str::to_owned).collect();
+    let mut found = imports(&tokens);
+    let mut at = 0;
+    while at < tokens.len() {
+        let mut climb = 0;
+        while is(at, "super") && is(at + 1, "::") {
+            (climb, at) = (climb + 1, at + 2);
+        }
+        if climb > 0 && climb <= parts.len() {
+            let (paths, _) = expand(&tokens, at);
+            let base = &parts[..parts.len() - climb];
+            found.extend(paths.into_iter().map(|path| [base, &path].concat()));
+        }
+        at += 1;
+    }
+    found
+}
+
+/// Where the names that a folder re-exports are defined: `pub use file::{Name}`.
+fn exports(facade: &Source) -> BTreeMap<String, String> {
+    let (tokens, mut found) = (&facade.tokens, BTreeMap::new());
+    for at in 0..tokens.len() {
+        if tokens[at] == "use" && tokens.get(at + 1).is_some_and(|word| word != "crate") {
+            for path in expand(tokens, at + 1)
+                .0
+                .into_iter()
+                .filter(|path| path.len() > 1)
+            {
+                found.insert(path[path.len() - 1].clone(), path[0].clone());
+            }
+        }
+    }
+    found
+}
+
+/// Files and folders that stand directly in `folder`, with what each uses of the others.
+fn room(sources: &[Source], folder: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let facade = sources.iter().find(|source| source.name == folder);
+    let exported = facade.map(exports).unwrap_or_default();
+    let folder: Vec<&str> = folder.split('/').collect();
+    let below = |path: &[String]| {
+        let inside = path.len() > folder.len() && folder.iter().zip(path).all(|(a, b)| a == b);
+        inside.then(|| path[folder.len()].clone())
+    };
+    let mut arrows = BTreeMap::<String, BTreeSet<String>>::new();
+    for source in sources {
+        let parts: Vec<String> = source.name.split('/').map(str::to_owned).collect();
+        let Some(own) = below(&parts) else { continue };
+        let named = absolute_paths(source)
+            .into_iter()
+            .filter_map(|path| below(&path));
+        let files = named.map(|word| exported.get(&word).cloned().unwrap_or(word));
+        let uses: BTreeSet<String> = files.filter(|file| *file != own).collect();
+        arrows.entry(own).or_default().extend(uses);
+    }
+    arrows
+}
+
+/// A circle of arrows, if there is one: files are taken away whose arrows all lead to files taken.
+fn circle(mut arrows: BTreeMap<String, BTreeSet<String>>) -> BTreeSet<String> {
+    loop {
+        let free = |uses: &BTreeSet<String>| !uses.iter().any(|file| arrows.contains_key(file));
+        let done: Vec<String> = arrows
+            .iter()
+            .filter(|(_, uses)| free(uses))
+            .map(|(file, _)| file.clone())
+            .collect();
+        if done.is_empty() {
+            return arrows.into_keys().collect();
+        }
+        done.iter().for_each(|file| drop(arrows.remove(file)));
+    }
 }
 
 /// Most `super` in one path.
@@ -260,7 +393,11 @@ fn every_module_has_its_row_and_the_pipeline_uses_its_stages() {
     let expected: BTreeSet<&str> = MAY_IMPORT.iter().map(|row| row.0).chain(["lib"]).collect();
     assert_eq!(found, expected);
     // The reader of imports does see them: these stages cannot do without each other.
-    for (module, stage) in [("dpana", "cone"), ("kkt", "body"), ("pipeline", "scene")] {
+    for (module, stage) in [
+        ("alternation", "cone"),
+        ("kkt", "body"),
+        ("pipeline", "scene"),
+    ] {
         let of_module = sources.iter().filter(|source| source.module() == module);
         let mut paths = of_module.flat_map(|source| imports(&source.tokens));
         assert!(
@@ -268,6 +405,59 @@ fn every_module_has_its_row_and_the_pipeline_uses_its_stages() {
             "{module} without {stage}"
         );
     }
+}
+
+#[test]
+fn no_circle_stands_inside_a_folder() {
+    let sources = sources();
+    let mut folders: BTreeSet<&str> = BTreeSet::new();
+    for source in &sources {
+        folders.extend(
+            source
+                .name
+                .match_indices('/')
+                .map(|(at, _)| &source.name[..at]),
+        );
+    }
+    let circles = folders.into_iter().filter_map(|folder| {
+        let found = circle(room(&sources, folder));
+        (!found.is_empty()).then(|| format!("{folder}: {found:?}"))
+    });
+    let circles: Vec<String> = circles.collect();
+    assert!(circles.is_empty(), "\n{}", circles.join("\n"));
+}
+
+#[test]
+fn a_circle_is_found_through_a_folder_s_exports() {
+    let files = [
+        ("kkt", "mod a; mod b; pub use a::Alpha;"),
+        ("kkt/a", "use super::b::Beta;"),
+        (
+            "kkt/b",
+            "use crate::kkt::Alpha; #[cfg(test)] mod tests { use super::a; }",
+        ),
+        ("kkt/c", "use super::a::Alpha;"),
+    ];
+    let sources = files.map(|(name, text)| Source::new(name, text));
+    let found = circle(room(&sources, "kkt"));
+    // c uses the circle and is no part of it, but is left over with it.
+    assert_eq!(found, ["a", "b", "c"].map(str::to_owned).into());
+    assert!(circle(room(&sources[..2], "kkt")).is_empty());
+}
+
+#[test]
+fn the_biggest_folder_holds_at_most_16_percent() {
+    let sources = sources();
+    let mut words = BTreeMap::<&str, usize>::new();
+    for source in &sources {
+        *words.entry(source.module()).or_default() += source.shipped().len();
+    }
+    let all: usize = words.values().sum();
+    let (folder, biggest) = words.iter().max_by_key(|row| row.1).unwrap();
+    assert!(
+        biggest * 100 <= 16 * all,
+        "{folder} holds {biggest} of {all} words and signs"
+    );
 }
 
 #[test]
@@ -280,13 +470,16 @@ fn a_forbidden_word_or_import_is_found_wherever_it_hides() {
         ),
         2
     );
-    assert_eq!(count("kkt/judge", "fn f() { crate::dpana::solve(); }"), 1);
+    assert_eq!(
+        count("kkt/judge", "fn f() { crate::alternation::solve(); }"),
+        1
+    );
     assert_eq!(count("kkt", "use super::cone;"), 1);
     assert_eq!(count("kkt/vtu/x", "use super::super::super::cone;"), 1);
     assert_eq!(
         count(
             "cone/normal",
-            "use crate::condensation::{ContactProblem, Operator};"
+            "use crate::problem::{ContactProblem, Operator};"
         ),
         1
     );
@@ -294,7 +487,7 @@ fn a_forbidden_word_or_import_is_found_wherever_it_hides() {
     assert_eq!(count("cone/normal", "use super::clarabel::ConeProgram;"), 0);
     assert_eq!(
         count(
-            "dpana/sweep",
+            "alternation/run",
             "let c = '\"'; println!(\"{}\", r#\"x\"#); let s = std::fs::read;"
         ),
         2

@@ -3,13 +3,11 @@
 
 use std::path::PathBuf;
 
+use dpana::alternation::{Outcome, Seconds, Status, SweepRecord, Work};
 use dpana::body::{Body, CellKind, Facet, Mesh, Model};
-use dpana::condensation::{
-    ContactNode, ContactPair, ContactProblem, ContactSurface, Obstacle, Operator, Opposite,
-    OppositeNodes,
-};
-use dpana::dpana::{Outcome, Seconds, Status, SweepRecord, Work};
+use dpana::contact::{ContactNode, ContactPair, ContactSurface, Obstacle, Opposite, OppositeNodes};
 use dpana::kkt::{Balance, Judge, Worst, WorstNode};
+use dpana::problem::{ContactProblem, Operator};
 use dpana::report::vtu::{BodyFields, body_vtu, contact_path, contact_vtu};
 use dpana::report::{Report, ReportParts, StageWork, replace_file};
 use faer::Mat;

@@ -1,7 +1,8 @@
 //! Pairs of surfaces that cannot touch as stated are refused, with the place and what is accepted.
 
 use dpana::body::{Body, CellKind, Facet, Group};
-use dpana::condensation::{Condensed, ContactPair, ContactSurface, Opposite};
+use dpana::condensation::Condensed;
+use dpana::contact::{ContactPair, ContactSurface, Opposite};
 use dpana::scene::{MeshSource, SceneBody, SceneContact, SceneSurface};
 use dpana::{Error, Scene, solve};
 

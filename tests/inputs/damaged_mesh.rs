@@ -1,6 +1,6 @@
 //! A damaged mesh file is refused or still a mesh, and never stops the program.
 
-use dpana::body::gmsh;
+use dpana::mesh_file::gmsh;
 use proptest::prelude::*;
 
 const CUBE: &str = include_str!("../data/meshes/D_patch3d_4_3.msh");

@@ -5,8 +5,8 @@
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use dpana::body::gmsh;
-use dpana::condensation::{ContactProblem, Floating, Operator};
+use dpana::mesh_file::gmsh;
+use dpana::problem::{ContactProblem, Floating, Operator};
 use dpana::scene::{BareProblem, Scene};
 use faer::{Mat, mat};
 use serde_json::{Value, json};

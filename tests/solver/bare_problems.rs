@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use approx::assert_abs_diff_eq;
-use dpana::condensation::{ContactProblem, Operator};
-use dpana::dpana::{Outcome, Settings, Status, Variant, solve};
+use dpana::alternation::{Outcome, Settings, Status, Variant, solve};
 use dpana::kkt::ContactStatus;
+use dpana::problem::{ContactProblem, Operator};
 use dpana::scene::BareProblem;
 use faer::mat;
 

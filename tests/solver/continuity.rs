@@ -1,8 +1,9 @@
 //! A state that bodies reach without a jump is told from one that they snap into.
 
 use crate::square;
-use dpana::condensation::{Condensed, ContactProblem, Operator};
-use dpana::dpana::{Earlier, Outcome, Settings, Status, WayBack, solve, way_back};
+use dpana::alternation::{Earlier, Outcome, Settings, Status, WayBack, solve, way_back};
+use dpana::condensation::Condensed;
+use dpana::problem::{ContactProblem, Operator};
 use dpana::report::Continuity;
 use dpana::scene::SceneSteps;
 use faer::mat;

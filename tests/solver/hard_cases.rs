@@ -2,10 +2,11 @@
 //! other starts tell whether a state is the only one.
 
 use crate::square;
-use dpana::condensation::{Condensed, ContactProblem, Operator};
-use dpana::dpana::{
+use dpana::alternation::{
     Outcome, Settings, Shortfall, Status, Variant, contraction, other_starts, solve,
 };
+use dpana::condensation::Condensed;
+use dpana::problem::{ContactProblem, Operator};
 use dpana::verify::{Reach, hard_cases};
 use faer::{Mat, mat};
 use serde_json::Value;

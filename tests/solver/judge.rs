@@ -2,8 +2,8 @@
 //! certified exactly when it solves the problem.
 
 use dpana::Judge;
-use dpana::condensation::{ContactProblem, Operator};
 use dpana::kkt::{ContactStatus, Verdict};
+use dpana::problem::{ContactProblem, Operator};
 use faer::Mat;
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -1,8 +1,8 @@
 //! Bodies that contact alone holds, as random rigid problems: what was built to be held is held, every
 //! refusal is proved by a motion that the judge accepts, and the limit is where the verdict changes.
 
-use dpana::cone::{Equilibrium, LeastFriction, Limit, RigidContacts};
 use dpana::kkt::impossibility;
+use dpana::limit::{Equilibrium, LeastFriction, Limit, RigidContacts};
 use faer::Mat;
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;

@@ -1,9 +1,9 @@
 //! Random bare problems: the judge certifies them, and the answer does not depend on
 //! the order of contacts, the choice of tangents or the units.
 
-use dpana::condensation::{ContactProblem, Operator};
-use dpana::dpana::{Outcome, Settings, Status, solve};
+use dpana::alternation::{Outcome, Settings, Status, solve};
 use dpana::kkt::Judge;
+use dpana::problem::{ContactProblem, Operator};
 use faer::Mat;
 use proptest::prelude::*;
 

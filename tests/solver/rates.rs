@@ -6,10 +6,11 @@
 //! so that sweeps from a cold start are still a little faster when they reach Clarabel's accuracy.
 
 use crate::square;
-use dpana::condensation::{Condensed, ContactProblem};
+use dpana::alternation::{Outcome, Settings, Status, Variant, solve};
+use dpana::condensation::Condensed;
 use dpana::cone::{FrictionHalfStep, NormalHalfStep, Role};
-use dpana::dpana::{Outcome, Settings, Status, Variant, solve};
 use dpana::kkt::ContactStatus;
+use dpana::problem::ContactProblem;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat};
 

@@ -1,9 +1,9 @@
 //! Load steps of bare condensed problems: a chain of springs on a frictional base against its exact
 //! history, event by event, and contacts that open and close again.
 
-use dpana::condensation::{ContactProblem, Operator};
-use dpana::dpana::{Outcome, Settings, Status, solve, solve_from, solve_near};
+use dpana::alternation::{Outcome, Settings, Status, solve, solve_from, solve_near};
 use dpana::kkt::ContactStatus;
+use dpana::problem::{ContactProblem, Operator};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, mat};
 

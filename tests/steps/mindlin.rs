@@ -3,7 +3,8 @@
 
 use std::f64::consts::PI;
 
-use dpana::body::{CellKind, Mesh, gmsh, rectangle};
+use dpana::body::{CellKind, Mesh, rectangle};
+use dpana::mesh_file::gmsh;
 use dpana::report::{Ledger, Report};
 use dpana::scene::SceneSteps;
 use dpana::{Scene, Status, solve_steps};

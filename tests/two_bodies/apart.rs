@@ -1,8 +1,9 @@
 //! Bodies that do not touch each other are solved together as if each were alone.
 
+use dpana::alternation::{Outcome, Settings, Status, solve};
 use dpana::body::{Body, CellKind, Facet, Group, Load, Material, Model, Support, rectangle};
-use dpana::condensation::{Condensed, ContactPair, Obstacle, Opposite};
-use dpana::dpana::{Outcome, Settings, Status, solve};
+use dpana::condensation::Condensed;
+use dpana::contact::{ContactPair, Obstacle, Opposite};
 use dpana::kkt::{self, Balance, Worst};
 
 /// A square of side 1 m, pressed on top by `pressure`, its right side on a symmetry plane

@@ -369,7 +369,7 @@ fn units_and_the_size_of_the_load_change_nothing() {
 fn variants_for_study_need_held_bodies() {
     let scene = incline(2, "quad4", 0.5, 0.1, [2.0, 1.0]);
     let mut scene = Scene::from_json(&scene.to_string(), "floating.json").unwrap();
-    scene.settings.variant = dpana::dpana::Variant::PLAIN;
+    scene.settings.variant = dpana::alternation::Variant::PLAIN;
     let said = solve(&scene).unwrap_err().to_string();
     assert!(said.contains("settings.variant: Sweeps"), "{said}");
 }

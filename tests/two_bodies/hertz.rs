@@ -4,7 +4,8 @@
 use std::f64::consts::PI;
 
 use dpana::Scene;
-use dpana::body::{CellKind, Mesh, gmsh, rectangle};
+use dpana::body::{CellKind, Mesh, rectangle};
+use dpana::mesh_file::gmsh;
 use dpana::report::Report;
 use dpana::scene::SceneBody;
 

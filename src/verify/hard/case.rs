@@ -3,12 +3,13 @@
 use std::time::Instant;
 
 use super::Reach;
-use crate::condensation::ContactProblem;
-use crate::dpana::{self, Outcome, Settings, Status};
+use crate::alternation::{Outcome, Settings, Status};
 use crate::error::Error;
-use crate::pipeline::{self, Solution};
+use crate::pipeline::Solution;
+use crate::problem::ContactProblem;
 use crate::report::HardCase;
 use crate::scene::Scene;
+use crate::{alternation, pipeline};
 
 /// A case of the battery.
 pub(super) struct Case {
@@ -160,7 +161,7 @@ impl Posed {
                 (problem, solution.outcome().clone(), Some(solution))
             }
             Self::Bare(problem) => {
-                let outcome = dpana::solve(problem, &Settings::default())?;
+                let outcome = alternation::solve(problem, &Settings::default())?;
                 (problem.as_ref().clone(), outcome, None)
             }
         };

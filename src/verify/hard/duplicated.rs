@@ -4,10 +4,12 @@ use faer::Mat;
 
 use super::case::{Case, apart};
 use super::friction::dragged;
-use crate::condensation::{Condensed, ContactProblem, Operator};
-use crate::dpana::{self, Settings};
+use crate::alternation;
+use crate::alternation::Settings;
+use crate::condensation::Condensed;
 use crate::error::Error;
 use crate::kkt::Judge;
+use crate::problem::{ContactProblem, Operator};
 
 const CELLS: usize = 24;
 
@@ -107,7 +109,7 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
                     "displacements of single contacts",
                     within(friction, angle),
                     move |answer| {
-                        let alone = dpana::solve(&single, &Settings::default())?;
+                        let alone = alternation::solve(&single, &Settings::default())?;
                         let found = &answer.outcome.verdict.displacement[..single.unknowns()];
                         Ok(apart(found, &alone.verdict.displacement))
                     },

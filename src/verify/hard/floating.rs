@@ -2,8 +2,8 @@
 
 use super::case::Case;
 use super::friction::elastic;
+use crate::alternation::Status;
 use crate::body::{CellKind, box_mesh, graded, rectangle};
-use crate::dpana::Status;
 use crate::error::Error;
 use crate::scene::{Scene, SceneLoad};
 use crate::verify::scenes::{body, on, plane};

@@ -2,8 +2,9 @@
 
 use super::case::Case;
 use super::friction::dragged;
-use crate::condensation::{Condensed, ContactProblem};
+use crate::condensation::Condensed;
 use crate::error::Error;
+use crate::problem::ContactProblem;
 
 /// Friction at a contact, by its place along the surface in [0, 1) and its number.
 type Along = fn(f64, usize) -> f64;

@@ -8,8 +8,8 @@ use faer::Mat;
 use super::Reach;
 use super::case::Case;
 use super::friction::dragged;
-use crate::condensation::{ContactProblem, Operator};
 use crate::error::Error;
+use crate::problem::{ContactProblem, Operator};
 
 /// Many times the friction of handbooks, and 2 / (1 − 2ν), from where the square's alternation cannot work.
 const ROUGH: [f64; 4] = [15.0, 20.0, 50.0, 100.0];

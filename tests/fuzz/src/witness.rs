@@ -11,8 +11,8 @@
 //! at the contacts a mode may be nothing but round-off, as between two faces of one body.
 //! ```
 
-use dpana::condensation::ContactProblem;
-use dpana::dpana::{Outcome, Shortfall, Status};
+use dpana::problem::ContactProblem;
+use dpana::alternation::{Outcome, Shortfall, Status};
 
 use crate::accurate::Sum;
 

@@ -2,8 +2,8 @@
 #![no_main]
 
 use arbitrary::{Arbitrary, Result, Unstructured};
-use dpana::condensation::{ContactProblem, Floating, Operator};
-use dpana::dpana::{Settings, Variant, solve};
+use dpana::problem::{ContactProblem, Floating, Operator};
+use dpana::alternation::{Settings, Variant, solve};
 use dpana_fuzz::witness;
 use faer::Mat;
 use libfuzzer_sys::fuzz_target;

@@ -1,7 +1,8 @@
 //! Bytes to the reader of Gmsh files, and a scene around every mesh that it accepts.
 #![no_main]
 
-use dpana::body::{Group, Mesh, gmsh};
+use dpana::body::{Group, Mesh};
+use dpana::mesh_file::gmsh;
 use dpana::scene::{
     MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
     SceneObstacle, SceneSupport, SceneSurface,

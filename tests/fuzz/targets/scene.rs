@@ -1,7 +1,7 @@
 //! Text to every reader of JSON, and what they accept to the solver.
 #![no_main]
 
-use dpana::dpana::Settings;
+use dpana::alternation::Settings;
 use dpana::scene::{BareProblem, SavedState, Scene};
 use dpana_fuzz::{attempt, change, small, witness};
 use libfuzzer_sys::{fuzz_mutator, fuzz_target, fuzzer_mutate};
@@ -20,7 +20,7 @@ fuzz_target!(|bytes: &[u8]| {
     if let Ok(problem) = BareProblem::from_json(text, "bare.json").and_then(|b| b.to_problem()) {
         let settings = Settings::default();
         if problem.unknowns() <= SOLVED {
-            let outcome = dpana::dpana::solve(&problem, &settings).expect("settings are sound");
+            let outcome = dpana::alternation::solve(&problem, &settings).expect("settings are sound");
             witness(&problem, &outcome, settings.tolerance);
         }
     }

@@ -1,0 +1,126 @@
+//! Projected block Gauss–Seidel on the compliance (NSGS): the prediction, and the baseline.
+//!
+//! One pass visits every contact and projects its reaction with all others held:
+//!
+//! ```text
+//! (D1)  t_N ← min(0, t_N − (u_N − g₀) / G_NN)
+//! (D2)  t_T ← P(t_T − u_T / λ)       P: projection on the disc of radius −μ t_N,
+//!                                    λ: largest eigenvalue of the contact's G_TT
+//! ```
+//!
+//! Jourdan, Alart, Jean, Comput. Methods Appl. Mech. Eng. 155 (1998) 31–47.
+
+use crate::problem::ContactProblem;
+
+/// The passes over one problem; step lengths are computed once.
+pub(super) struct GaussSeidel<'a> {
+    problem: &'a ContactProblem,
+    steps: Vec<Step>,
+}
+
+/// Step lengths of a contact, in N/m; zero where the compliance vanishes.
+struct Step {
+    normal: f64,
+    tangential: f64,
+}
+
+impl<'a> GaussSeidel<'a> {
+    pub(super) fn new(problem: &'a ContactProblem) -> Self {
+        let steps = problem.offsets().windows(2).map(|block| {
+            let [n, end] = [block[0], block[1]];
+            let g = problem.compliance();
+            let largest = match end - n {
+                1 => 0.0,
+                2 => g[(n + 1, n + 1)],
+                _ => largest_eigenvalue(g[(n + 1, n + 1)], g[(n + 2, n + 1)], g[(n + 2, n + 2)]),
+            };
+            Step {
+                normal: inverse(g[(n, n)]),
+                tangential: inverse(largest),
+            }
+        });
+        Self {
+            problem,
+            steps: steps.collect(),
+        }
+    }
+
+    /// One pass; returns the change of the reaction, relative to the reaction.
+    pub(super) fn pass(&self, reaction: &mut [f64]) -> f64 {
+        let (mut change, mut size) = (0.0, 0.0);
+        for contact in 0..self.problem.contacts() {
+            let range = self.problem.offsets()[contact]..self.problem.offsets()[contact + 1];
+            let mut before = [0.0; 3];
+            let before = &mut before[..range.len()];
+            before.copy_from_slice(&reaction[range.clone()]);
+            self.project(contact, reaction);
+            for (new, old) in reaction[range].iter().zip(before) {
+                change += (new - *old).powi(2);
+                size += new * new;
+            }
+        }
+        if size > 0.0 {
+            (change / size).sqrt()
+        } else {
+            0.0
+        }
+    }
+
+    /// (D1) then (D2) for one contact.
+    fn project(&self, contact: usize, reaction: &mut [f64]) {
+        let problem = self.problem;
+        let (n, end) = (problem.offsets()[contact], problem.offsets()[contact + 1]);
+        let displacement = |unknown: usize, reaction: &[f64]| {
+            let column = problem.compliance().col_as_slice(unknown);
+            problem.free_displacement()[unknown] + dot(column, reaction)
+        };
+        let step = &self.steps[contact];
+        let penetration = displacement(n, reaction) - problem.initial_gap()[contact];
+        reaction[n] = (reaction[n] - step.normal * penetration).min(0.0);
+        let bound = -problem.friction()[contact] * reaction[n];
+        let trial: [f64; 2] = std::array::from_fn(|axis| {
+            let unknown = n + 1 + axis;
+            if unknown < end && bound > 0.0 {
+                reaction[unknown] - step.tangential * displacement(unknown, reaction)
+            } else {
+                0.0
+            }
+        });
+        let size = trial[0].hypot(trial[1]);
+        let shrink = if size > bound { bound / size } else { 1.0 };
+        for (unknown, value) in (n + 1..end).zip(trial) {
+            reaction[unknown] = shrink * value;
+        }
+    }
+}
+
+fn inverse(compliance: f64) -> f64 {
+    if compliance > 0.0 {
+        compliance.recip()
+    } else {
+        0.0
+    }
+}
+
+/// Of the symmetric matrix `[[a, b], [b, c]]`.
+fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
+    0.5 * (a + c) + (0.5 * (a - c)).hypot(b)
+}
+
+/// Dot product in eight lanes, so that the compiler can keep several in flight.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
+    let rest: f64 = a_chunks
+        .remainder()
+        .iter()
+        .zip(b_chunks.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
+    let mut lanes = [0.0; 8];
+    for (x, y) in a_chunks.zip(b_chunks) {
+        for lane in 0..8 {
+            lanes[lane] += x[lane] * y[lane];
+        }
+    }
+    lanes.iter().sum::<f64>() + rest
+}

@@ -1,0 +1,99 @@
+//! Which contacts need a cone: the working sets of the next half-steps.
+
+use crate::cone::Role;
+use crate::problem::ContactProblem;
+
+/// A contact pressed in, or open, by more than this part of the mean indentation is
+/// taken as decided.
+const DECIDED: f64 = 0.25;
+
+/// A contact whose friction stays below this part of its bound is taken as stuck.
+const STUCK: f64 = 0.8;
+
+/// Roles of every contact in the two half-steps.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Roles {
+    pub(super) normal: Vec<Role>,
+    pub(super) friction: Vec<Role>,
+}
+
+impl Roles {
+    /// Every contact has its cone.
+    pub(super) fn full(contacts: usize) -> Self {
+        Self {
+            normal: vec![Role::Cone; contacts],
+            friction: vec![Role::Cone; contacts],
+        }
+    }
+
+    /// Roles that a state suggests.
+    ///
+    /// The indentation `−G_NN t_N` of a pressed contact and the gap of an open one are
+    /// lengths; both are compared with the mean indentation. In each half-step the
+    /// least decided contact keeps its cone.
+    pub(super) fn predict(
+        problem: &ContactProblem,
+        reaction: &[f64],
+        displacement: &[f64],
+    ) -> Self {
+        let margins: Vec<f64> = (0..problem.contacts())
+            .map(|contact| {
+                let n = problem.offsets()[contact];
+                if reaction[n] < 0.0 {
+                    -problem.compliance()[(n, n)] * reaction[n]
+                } else {
+                    displacement[n] - problem.initial_gap()[contact]
+                }
+            })
+            .collect();
+        let pressed: Vec<f64> = margins
+            .iter()
+            .copied()
+            .filter(|&margin| margin > 0.0)
+            .collect();
+        let mean = pressed.iter().sum::<f64>() / pressed.len().max(1) as f64;
+        let mut normal: Vec<Role> = margins
+            .iter()
+            .map(|&margin| match margin {
+                m if m > DECIDED * mean => Role::Free,
+                m if m < -DECIDED * mean => Role::Absent,
+                _ => Role::Cone,
+            })
+            .collect();
+        keep_least(&mut normal, |contact| margins[contact].abs());
+
+        let ratios: Vec<f64> = (0..problem.contacts())
+            .map(|contact| friction_ratio(problem, reaction, contact))
+            .collect();
+        let mut friction: Vec<Role> = (0..problem.contacts())
+            .map(|contact| match normal[contact] {
+                Role::Absent => Role::Absent,
+                Role::Free if ratios[contact] < STUCK => Role::Free,
+                _ => Role::Cone,
+            })
+            .collect();
+        keep_least(&mut friction, |contact| -ratios[contact]);
+        Self { normal, friction }
+    }
+}
+
+/// `‖t_T‖ / (−μ t_N)`; 1 where the bound is zero.
+fn friction_ratio(problem: &ContactProblem, reaction: &[f64], contact: usize) -> f64 {
+    let (n, end) = (problem.offsets()[contact], problem.offsets()[contact + 1]);
+    let bound = -problem.friction()[contact] * reaction[n];
+    let size = reaction[n + 1..end]
+        .iter()
+        .fold(0.0_f64, |size, t| size.hypot(*t));
+    if bound > 0.0 { size / bound } else { 1.0 }
+}
+
+/// Where no contact has a cone, the one of least `margin` gets it.
+fn keep_least(roles: &mut [Role], margin: impl Fn(usize) -> f64) {
+    if roles.contains(&Role::Cone) {
+        return;
+    }
+    let candidates = (0..roles.len()).filter(|&contact| roles[contact] == Role::Free);
+    if let Some(least) = candidates.min_by(|&a, &b| margin(a).total_cmp(&margin(b))) {
+        roles[least] = Role::Cone;
+    }
+}

@@ -1,0 +1,146 @@
+//! Which facets of the body look at an obstacle, and where the surface goes on.
+//!
+//! ```text
+//! facing    m · n > 0         m: outward normal of the facet, n: direction to the obstacle
+//! rim       m' · n > ½        m': outward normal of a neighbour outside the contact pair
+//! ```
+//!
+//! Facets that look away from the obstacle, or along it, take no part: an assumed
+//! surface may grow over sides and back without changing the problem.
+
+use std::collections::{HashMap, HashSet};
+
+use nalgebra::Vector3;
+
+use super::{ContactNode, ContactPair, Obstacle};
+use crate::body::{Body, Facet, FacetGeometry};
+use crate::error::Error;
+
+/// Cosine between a facet's normal and the direction to the obstacle, above which it faces it.
+const FACING: f64 = 1e-6;
+
+/// Cosine above which a neighbouring facet continues the surface and does not turn a corner.
+const SMOOTH: f64 = 0.5;
+
+/// The facets of the body's boundary, found by their nodes.
+pub(super) struct Boundary<'a> {
+    body: &'a Body,
+    facets: Vec<Facet>,
+    index_of: HashMap<Vec<usize>, usize>,
+}
+
+/// Bodies of a scene with what is known of each.
+pub(super) struct Bodies<'a> {
+    pub(super) bodies: &'a [Body],
+    pub(super) boundaries: &'a [Boundary<'a>],
+    /// Prescribed displacement per body and degree of freedom.
+    pub(super) prescribed: &'a [Vec<Option<f64>>],
+}
+
+impl<'a> Boundary<'a> {
+    pub(super) fn new(body: &'a Body) -> Self {
+        let facets = body.mesh.boundary_facets();
+        let keyed = facets.iter().enumerate();
+        let index_of = keyed.map(|(index, facet)| (key(facet), index)).collect();
+        Self {
+            body,
+            facets,
+            index_of,
+        }
+    }
+
+    /// Facets of the boundary in outward order, each once.
+    pub(super) fn outward(&self, facets: &[Facet], place: &str) -> Result<Vec<Facet>, Error> {
+        let mut seen = HashSet::new();
+        let mut outward = Vec::with_capacity(facets.len());
+        for (at, facet) in facets.iter().enumerate() {
+            let Some(&index) = self.index_of.get(&key(facet)) else {
+                return Err(self.refuse(facet, format!("{place}[{at}]")));
+            };
+            if seen.insert(index) {
+                outward.push(self.facets[index].clone());
+            }
+        }
+        Ok(outward)
+    }
+
+    /// The facets of a pair that face its obstacle, each once.
+    pub(super) fn facing(
+        &self,
+        pair: &ContactPair,
+        obstacle: &Obstacle,
+    ) -> Result<Vec<(Facet, FacetGeometry)>, Error> {
+        let mut facing = Vec::new();
+        for facet in self.outward(&pair.facets, &format!("{}.facets", pair.place))? {
+            let geometry = self.body.facet_geometry(&facet);
+            let seen_from = obstacle.closest(&pair.place, self.centre(&facet))?;
+            if cosine(geometry.normal, seen_from.direction) > FACING {
+                facing.push((facet, geometry));
+            }
+        }
+        if facing.is_empty() {
+            return Err(Error::NothingFacesObstacle {
+                place: pair.place.clone(),
+                facets: pair.facets.len(),
+            });
+        }
+        Ok(facing)
+    }
+
+    /// Why a facet is not one of the boundary.
+    fn refuse(&self, facet: &Facet, place: String) -> Error {
+        let cells = match self.body.mesh.orient(std::slice::from_ref(facet)) {
+            Err(Error::FacetOwners { cells, .. }) => cells,
+            _ => 0,
+        };
+        Error::FacetOwners {
+            place,
+            nodes: facet.nodes.clone(),
+            cells,
+        }
+    }
+
+    /// Mean of the nodes, in metre.
+    fn centre(&self, facet: &Facet) -> [f64; 3] {
+        let nodes = facet.nodes.iter();
+        let sum: Vector3<f64> = nodes
+            .map(|&node| Vector3::from(self.body.mesh.nodes[node]))
+            .sum();
+        (sum / facet.nodes.len() as f64).into()
+    }
+
+    /// Marks contacts of a pair where a boundary facet outside it goes on in the same direction.
+    pub(super) fn mark_rims(&self, contacts: &mut [ContactNode], of_pair: &[Facet]) {
+        let within: HashSet<Vec<usize>> = of_pair.iter().map(key).collect();
+        let numbered = contacts.iter().enumerate();
+        let contact_of_node: HashMap<usize, usize> = numbered
+            .map(|(index, contact)| (contact.node, index))
+            .collect();
+        for facet in self
+            .facets
+            .iter()
+            .filter(|facet| !within.contains(&key(facet)))
+        {
+            for contact in facet
+                .nodes
+                .iter()
+                .filter_map(|node| contact_of_node.get(node))
+            {
+                let contact = &mut contacts[*contact];
+                let normal = self.body.facet_geometry(facet).normal;
+                contact.rim |= cosine(normal, contact.frame[0]) > SMOOTH;
+            }
+        }
+    }
+}
+
+/// The nodes of a facet in ascending order, the same from both sides.
+fn key(facet: &Facet) -> Vec<usize> {
+    let mut nodes = facet.nodes.clone();
+    nodes.sort_unstable();
+    nodes
+}
+
+fn cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
+    Vector3::from(a).dot(&Vector3::from(b))
+}

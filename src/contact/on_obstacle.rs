@@ -1,0 +1,378 @@
+//! The contacts of a pair with a rigid obstacle, one per corner of the facets that face it.
+//!
+//! Beside an axisymmetric body an obstacle goes around the axis: a plane is a cone, or a disc, and a
+//! circle a ball. What stands on the axis sees only along it, to the apex of a cone.
+
+use super::corner_weights::{Footing, footings, held_axes};
+use super::facing::Bodies;
+use super::frame::Stance;
+use super::pair::PairSurface;
+use super::{Closest, ContactNode, ContactPair, Obstacle};
+use crate::body::{Axis, Body};
+use crate::error::Error;
+
+/// The contacts of a pair with a rigid obstacle.
+pub(super) fn on_obstacle(
+    scene: &Bodies<'_>,
+    pair: &ContactPair,
+    obstacle: &Obstacle,
+) -> Result<PairSurface, Error> {
+    let (body, boundary) = (&scene.bodies[pair.body], &scene.boundaries[pair.body]);
+    let view = View {
+        body,
+        pair,
+        obstacle,
+        axis: Axis::of(body),
+    };
+    view.check()?;
+    let facing = boundary.facing(pair, obstacle)?;
+    let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
+    let gap = |node, position| Ok(view.closest(node, position)?.distance);
+    for footing in footings(body, &facing, gap)? {
+        let node = footing.node;
+        match view.contact(footing, &scene.prescribed[pair.body])? {
+            Some(contact) => contacts.push(contact),
+            None => left_out.push(node),
+        }
+    }
+    boundary.mark_rims(&mut contacts, &pair.facets);
+    Ok(PairSurface {
+        body: pair.body,
+        contacts,
+        facets: facing.into_iter().map(|(facet, _)| facet).collect(),
+        left_out,
+    })
+}
+
+/// An obstacle, as a body sees it.
+struct View<'a> {
+    body: &'a Body,
+    pair: &'a ContactPair,
+    obstacle: &'a Obstacle,
+    axis: Option<Axis>,
+}
+
+impl View<'_> {
+    /// Refuses what does not go around the axis.
+    fn check(&self) -> Result<(), Error> {
+        match (self.axis, self.obstacle) {
+            (Some(_), Obstacle::Cylinder { center, .. }) if center[0] != 0.0 => {
+                Err(Error::OutOfRange {
+                    place: format!("{}.obstacle.center[0]", self.pair.place),
+                    value: center[0],
+                    accepted: "0: beside an axisymmetric body a circle is a ball on the axis",
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The obstacle from a position, for the contact at `node`.
+    fn closest(&self, node: usize, position: [f64; 3]) -> Result<Closest, Error> {
+        let closest = self.obstacle.closest(&self.pair.place, position)?;
+        let node = self.body.mesh.nodes[node];
+        let along = closest.direction[1];
+        if along == 0.0 || !self.axis.is_some_and(|axis| axis.holds(node)) {
+            return Ok(closest);
+        }
+        Ok(Closest {
+            distance: closest.distance / along.abs(),
+            direction: [0.0, along.signum(), 0.0],
+        })
+    }
+
+    /// The contact of a footing; none if a support holds its normal.
+    fn contact(
+        &self,
+        footing: Footing,
+        prescribed: &[Option<f64>],
+    ) -> Result<Option<ContactNode>, Error> {
+        let (pair, node) = (self.pair, footing.node);
+        let dimension = self.body.mesh.dimension;
+        let position = self.body.mesh.nodes[node];
+        let closest = self.closest(node, position)?;
+        let given = |node: usize, axis: usize| match axis < dimension {
+            true => prescribed[node * dimension + axis],
+            false => None,
+        };
+        let held = |node, axis| given(node, axis).is_some();
+        let supported = held_axes(node, &footing.own, closest.direction, held);
+        let stance = Stance::new(dimension, closest.direction, supported);
+        let (frame, kept) = match stance {
+            Stance::Held => return Ok(None),
+            Stance::Free { frame, kept } => (frame, kept),
+            Stance::Askew => {
+                return Err(Error::SupportAskew {
+                    place: pair.place.clone(),
+                    node,
+                    position,
+                    normal: closest.direction,
+                    axes: axes(supported),
+                });
+            }
+        };
+        let own = footing.own.iter().map(|(node, _)| *node);
+        let across = (0..dimension).filter(|axis| frame[0][*axis] == 0.0);
+        let moved = own.flat_map(|node| across.clone().map(move |axis| (axis, given(node, axis))));
+        let mut moved = moved.filter_map(|(axis, u)| Some((axis, u.filter(|u| *u != 0.0)?)));
+        if let (Some((axis, displacement)), true) = (moved.next(), pair.friction > 0.0) {
+            return Err(Error::DraggedContact {
+                place: pair.place.clone(),
+                node,
+                position,
+                friction: pair.friction,
+                displacement,
+                axis: AXES[axis],
+            });
+        }
+        let initial_gap = match footing.own.as_slice() {
+            [_] => closest.distance,
+            _ => footing.gap,
+        };
+        Ok(Some(ContactNode {
+            body: pair.body,
+            node,
+            own: footing.own,
+            opposite: None,
+            pair: 0,
+            position,
+            frame,
+            tangents: if pair.friction == 0.0 { 0 } else { kept },
+            initial_gap,
+            area: footing.area * self.body.model.depth(),
+            second: false,
+            rim: false,
+        }))
+    }
+}
+
+const AXES: [char; 3] = ['x', 'y', 'z'];
+
+/// The supported axes in words.
+fn axes(held: [bool; 3]) -> String {
+    let named = AXES.iter().zip(held).filter(|(_, held)| *held);
+    let named: Vec<String> = named.map(|(axis, _)| axis.to_string()).collect();
+    named.join(" and ")
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::tests::samples::{block, facets};
+    use crate::body::{CellKind, Facet, Model, Support, prescribed};
+    use crate::contact::{ContactSurface, Opposite};
+
+    /// A plane below the block, 0.25 m away, and the pair of the named sides with it.
+    fn pair(body: &Body, sides: &[&str]) -> ContactPair {
+        let normal = match body.mesh.dimension {
+            2 => [0.0, 1.0, 0.0],
+            _ => [0.0, 0.0, 1.0],
+        };
+        let point = normal.map(|component| -0.25 * component);
+        let facets = sides.iter().flat_map(|side| facets(&body.mesh, side));
+        ContactPair {
+            place: "contacts[0]".to_owned(),
+            facets: facets.collect(),
+            body: 0,
+            opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
+            friction: 0.3,
+        }
+    }
+
+    fn find(body: &Body, pairs: &[ContactPair]) -> Result<ContactSurface, Error> {
+        ContactSurface::new(std::slice::from_ref(body), pairs, &[prescribed(body)?])
+    }
+
+    fn hold(body: &mut Body, nodes: &[usize], displacement: [Option<f64>; 3]) {
+        body.supports.push(Support {
+            place: "supports[0]".to_owned(),
+            nodes: nodes.to_vec(),
+            displacement,
+        });
+    }
+
+    /// The node of the block's bottom with the largest x (and the smallest y).
+    fn bottom_right(body: &Body) -> usize {
+        let at = |node: &[f64; 3]| *node == [2.0, 0.0, 0.0];
+        body.mesh.nodes.iter().position(at).unwrap()
+    }
+
+    #[test]
+    fn the_bottom_of_a_block_carries_its_whole_area() {
+        for kind in [
+            CellKind::Tri3,
+            CellKind::Quad4,
+            CellKind::Tet4,
+            CellKind::Hex8,
+        ] {
+            let body = block(kind);
+            let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+            let area: f64 = surface.nodes.iter().map(|contact| contact.area).sum();
+            // 2 m × 1 m, or 2 m × 1 m of depth.
+            assert!((area - 2.0).abs() < 1e-14, "{kind:?} {area}");
+            for contact in &surface.nodes {
+                assert_eq!((contact.initial_gap, contact.rim), (0.25, false));
+                assert_eq!(contact.tangents, kind.dimension() - 1);
+            }
+        }
+    }
+
+    #[test]
+    fn the_area_of_a_plate_counts_its_thickness() {
+        let mut body = block(CellKind::Quad4);
+        body.model = Model::PlaneStress { thickness: 0.01 };
+        let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        let area: f64 = surface.nodes.iter().map(|contact| contact.area).sum();
+        assert!((area - 0.02).abs() < 1e-16);
+    }
+
+    #[test]
+    fn sides_and_back_add_nothing_to_the_assumed_surface() {
+        let body = block(CellKind::Quad4);
+        let alone = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        let grown = pair(&body, &["bottom", "left", "right", "top", "bottom"]);
+        assert_eq!(find(&body, &[grown]).unwrap(), alone);
+    }
+
+    #[test]
+    fn a_surface_that_only_looks_away_is_refused() {
+        let body = block(CellKind::Quad4);
+        let found = find(&body, &[pair(&body, &["top", "left"])]).unwrap_err();
+        let place = "contacts[0]".to_owned();
+        assert_eq!(found, Error::NothingFacesObstacle { place, facets: 6 });
+        let none = find(&body, &[pair(&body, &[])]).unwrap_err();
+        assert!(matches!(
+            none,
+            Error::NothingFacesObstacle { facets: 0, .. }
+        ));
+        let nothing = find(&body, &[]).unwrap_err();
+        assert!(matches!(nothing, Error::EmptyContactSurface { .. }));
+    }
+
+    #[test]
+    fn the_rim_is_where_the_surface_goes_on_smoothly() {
+        let body = block(CellKind::Quad4);
+        let mut part = pair(&body, &["bottom"]);
+        part.facets.truncate(2);
+        let surface = find(&body, &[part]).unwrap();
+        // Two of four facets from the left corner: the corner is no rim, the cut end is.
+        let rims: Vec<_> = surface
+            .nodes
+            .iter()
+            .map(|c| (c.position[0], c.rim))
+            .collect();
+        assert_eq!(rims.iter().filter(|(_, rim)| *rim).count(), 1);
+        let far = rims.iter().max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        assert!(far.1, "{rims:?}");
+    }
+
+    #[test]
+    fn a_node_whose_normal_is_held_is_left_out_and_said_so() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.0), Some(0.0), None]);
+        let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        assert_eq!(
+            (surface.left_out, surface.nodes.len()),
+            (vec![(0, corner)], 4)
+        );
+        let all: Vec<usize> = (0..body.mesh.nodes.len()).collect();
+        hold(&mut body, &all, [None, Some(0.0), None]);
+        let found = find(&body, &[pair(&body, &["bottom"])]).unwrap_err();
+        assert_eq!(
+            found,
+            Error::EmptyContactSurface {
+                pairs: 1,
+                left_out: 5
+            }
+        );
+    }
+
+    #[test]
+    fn a_symmetry_plane_takes_a_tangent_but_not_the_contact() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.0), None, None]);
+        let surface = find(&body, &[pair(&body, &["bottom"])]).unwrap();
+        let contact = surface.nodes.iter().find(|c| c.node == corner).unwrap();
+        assert_eq!((contact.tangents, surface.nodes.len()), (0, 5));
+    }
+
+    #[test]
+    fn a_support_may_drag_a_contact_only_without_friction() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.001), None, None]);
+        let mut pair = pair(&body, &["bottom"]);
+        let found = find(&body, std::slice::from_ref(&pair)).unwrap_err();
+        assert!(
+            matches!(found, Error::DraggedContact { axis: 'x', .. }),
+            "{found}"
+        );
+        pair.friction = 0.0;
+        let surface = find(&body, &[pair]).unwrap();
+        assert!(surface.nodes.iter().all(|contact| contact.tangents == 0));
+    }
+
+    #[test]
+    fn a_support_at_an_angle_to_the_normal_is_refused() {
+        let mut body = block(CellKind::Quad4);
+        let corner = bottom_right(&body);
+        hold(&mut body, &[corner], [Some(0.0), None, None]);
+        let mut pair = pair(&body, &["bottom"]);
+        pair.opposite = Opposite::Obstacle(Obstacle::Plane {
+            point: [0.0, -1.0, 0.0],
+            normal: [0.6, 0.8, 0.0],
+        });
+        let found = find(&body, &[pair]).unwrap_err();
+        assert!(found.to_string().contains("supported along x"), "{found}");
+    }
+
+    #[test]
+    fn flawed_pairs_are_refused_with_their_place() {
+        let body = block(CellKind::Quad4);
+        let mut rough = pair(&body, &["bottom"]);
+        rough.friction = -0.1;
+        assert!(
+            find(&body, &[rough.clone()])
+                .unwrap_err()
+                .to_string()
+                .starts_with("contacts[0].friction")
+        );
+        rough.friction = f64::NAN;
+        assert!(
+            find(&body, &[rough])
+                .unwrap_err()
+                .to_string()
+                .starts_with("contacts[0].friction")
+        );
+        let mut inside = pair(&body, &["bottom"]);
+        inside.facets.push(Facet {
+            nodes: vec![0, 999_999],
+        });
+        assert!(
+            find(&body, &[inside])
+                .unwrap_err()
+                .to_string()
+                .starts_with("contacts[0].facets[4]")
+        );
+    }
+
+    #[test]
+    fn the_gap_to_a_cylinder_follows_its_curve() {
+        // Cylinder of radius 2 below the origin: the gap at (x, 0) is √(x² + 4) − 2.
+        let body = block(CellKind::Quad4);
+        let mut round = pair(&body, &["bottom"]);
+        round.opposite = Opposite::Obstacle(Obstacle::Cylinder {
+            center: [0.0, -2.0, 0.0],
+            axis: [0.0, 0.0, 1.0],
+            radius: 2.0,
+        });
+        for contact in find(&body, &[round]).unwrap().nodes {
+            let x = contact.position[0];
+            assert!((contact.initial_gap - (x.hypot(2.0) - 2.0)).abs() < 1e-15);
+            assert!((contact.frame[0][0] + x / x.hypot(2.0)).abs() < 1e-15);
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! A pair of sides that may touch, as a scene names it, and what it adds to the contact surface.
+
+use super::Obstacle;
+use super::node::ContactNode;
+use crate::body::Facet;
+use crate::error::{Error, check_finite};
+
+/// A part of a body's surface that may touch a rigid obstacle or another surface.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactPair {
+    /// Where the scene says so, for messages, such as `contacts[0]`.
+    pub place: String,
+    /// Index of the body that the pair names first. Its nodes carry the contacts, unless it
+    /// is more than a hundred times as stiff at the surface as the body opposite: then
+    /// those of that one do. On flat faces either choice is exact for a uniform pressure;
+    /// on curved ones the coarser side averages over the other's facets, while the finer
+    /// one follows them in its pressures.
+    pub body: usize,
+    /// The assumed contact surface; it need only contain the true contact.
+    pub facets: Vec<Facet>,
+    /// What it may touch.
+    pub opposite: Opposite,
+    /// Coefficient of friction, `μ ≥ 0`.
+    pub friction: f64,
+}
+
+/// The other side of a contact pair.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Opposite {
+    /// A rigid obstacle.
+    Obstacle(Obstacle),
+    /// The surface of a body: another one, or the other face of a crack in the same.
+    Surface {
+        /// Index of that body.
+        body: usize,
+        /// Its facets.
+        facets: Vec<Facet>,
+    },
+}
+
+impl ContactPair {
+    pub(super) fn check(&self, dimension: usize) -> Result<(), Error> {
+        if let Opposite::Obstacle(obstacle) = &self.opposite {
+            obstacle.check(&self.place, dimension)?;
+        }
+        let place = format!("{}.friction", self.place);
+        if self.friction.is_finite() && self.friction < 0.0 {
+            return Err(Error::OutOfRange {
+                place,
+                value: self.friction,
+                accepted: "friction >= 0",
+            });
+        }
+        check_finite(&place, &[self.friction])
+    }
+}
+
+/// What one pair adds to the contact surface.
+pub(super) struct PairSurface {
+    /// The body whose nodes carry the contacts.
+    pub(super) body: usize,
+    pub(super) contacts: Vec<ContactNode>,
+    pub(super) facets: Vec<Facet>,
+    pub(super) left_out: Vec<usize>,
+}
+
+/// Refuses the number of a body that does not exist.
+pub(super) fn check_pair_body(place: &str, body: usize, count: usize) -> Result<(), Error> {
+    if body < count {
+        return Ok(());
+    }
+    Err(Error::UnknownIndex {
+        place: place.to_owned(),
+        what: "body",
+        index: body,
+        count,
+    })
+}

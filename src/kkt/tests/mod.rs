@@ -1,0 +1,3 @@
+//! Bodies in contact that tests share.
+
+pub(crate) mod samples;

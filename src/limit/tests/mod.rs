@@ -1,0 +1,3 @@
+//! Rigid blocks that tests share.
+
+pub(crate) mod blocks;

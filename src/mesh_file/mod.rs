@@ -1,0 +1,7 @@
+//! MESH FILES: meshes as other programs write them.
+//!
+//! | format | file |
+//! |---|---|
+//! | Gmsh 2.2 and 4.1, ASCII | `gmsh` |
+
+pub mod gmsh;

@@ -1,0 +1,299 @@
+//! One scene under many values of friction, loads, supports, gaps and obstacle positions.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::Setup;
+use crate::alternation;
+use crate::alternation::{Outcome, Status};
+use crate::body::Body;
+use crate::condensation::{Driven, Superposition};
+use crate::contact::{ContactPair, Opposite};
+use crate::error::{Error, check_finite};
+use crate::report::Table;
+use crate::scene::{Scene, driven};
+
+/// A quantity of a scene and the values that it takes.
+///
+/// | name | values |
+/// |---|---|
+/// | `friction`, `contacts[0].friction` | coefficient, of all contacts or of one |
+/// | `gap`, `contacts[0].gap` | added to the gap before loading, in metre |
+/// | `bodies[0].loads[1]`, `bodies[0].supports[0]` | factor |
+/// | `contacts[0].x`, `.y`, `.z` | how far the obstacle has moved, in metre |
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variation {
+    /// Name of the quantity.
+    pub name: String,
+    /// Its values.
+    pub values: Vec<f64>,
+}
+
+/// Most cases that start one from another, one after the other.
+const CHAIN: usize = 25;
+
+/// Solves a scene for every combination of values, all on one factorisation, and tabulates totals,
+/// extremes, status and certificate; the last variation changes fastest.
+///
+/// Along the last variation every case starts from the one before, if that is certified, in
+/// chains of at most 25; the chains are solved side by side on the threads of the current pool:
+/// the table does not depend on their number.
+///
+/// # Errors
+///
+/// Whatever is wrong with the scene, a scene with load steps, a quantity that it does not have or
+/// that is given twice, a value that the quantity cannot take.
+pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
+    sweep_watched(scene, variations, |_, _| {})
+}
+
+/// The same, telling `done` after every case how many of how many are solved.
+///
+/// # Errors
+///
+/// Those of [`sweep`].
+pub fn sweep_watched(
+    scene: &Scene,
+    variations: &[Variation],
+    done: impl Fn(usize, usize) + Sync,
+) -> Result<Table, Error> {
+    let at_scene = |error| scene.locate(error);
+    let mut mechanics = scene.mechanics()?;
+    if !mechanics.history.instants().is_empty() {
+        return Err(at_scene(Error::NotAccepted {
+            place: "steps".to_owned(),
+            found: "a load history".to_owned(),
+            accepted: "a scene without steps, of which a sweep solves many".to_owned(),
+        }));
+    }
+    let quantities = Quantities::new(&mechanics.bodies, &mechanics.contacts);
+    let drives = quantities.find_all(variations)?;
+    let friction: Vec<f64> = mechanics
+        .contacts
+        .iter()
+        .map(|pair| pair.friction)
+        .collect();
+    // Contacts hold tangents where any case has friction.
+    for (drive, variation) in drives.iter().zip(variations) {
+        if let Drive::Friction(contacts) = drive {
+            let most = variation.values.iter().copied().fold(0.0, f64::max);
+            contacts
+                .iter()
+                .for_each(|&k| mechanics.contacts[k].friction = most);
+        }
+    }
+    let mut setup = Setup::new(scene, mechanics).map_err(at_scene)?;
+    let driven = drives.iter().filter_map(Drive::driven);
+    let driven: Vec<Driven> = driven.collect();
+    let condensed = &mut setup.condensed;
+    let stated = Stated {
+        under: condensed
+            .superpose(&setup.bodies, &driven)
+            .map_err(at_scene)?,
+        names: variations.iter().map(|v| v.name.clone()).collect(),
+        friction,
+        gaps: condensed.problem().initial_gap().to_vec(),
+        drives,
+        setup,
+    };
+    let cases = combinations(variations);
+    let (solved, all) = (AtomicUsize::new(0), cases.len());
+    let row = variations.last().map_or(1, |last| last.values.len());
+    let chains = cases.chunks(row.max(1)).flat_map(|row| row.chunks(CHAIN));
+    let chains: Vec<&[Vec<f64>]> = chains.collect();
+    let tables: Vec<Result<Table, Error>> = chains
+        .into_par_iter()
+        .map(|chain| {
+            stated.solve(chain, || {
+                done(solved.fetch_add(1, Ordering::Relaxed) + 1, all);
+            })
+        })
+        .collect();
+    let mut table = Table::default();
+    for part in tables {
+        table.append(part.map_err(at_scene)?);
+    }
+    Ok(table)
+}
+
+/// All combinations of values, the last varying fastest; one without values if nothing varies.
+fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
+    let mut cases = vec![Vec::new()];
+    for variation in variations {
+        let longer = cases.iter().flat_map(|case: &Vec<f64>| {
+            let values = variation.values.iter();
+            values.map(move |&value| [case.as_slice(), &[value]].concat())
+        });
+        cases = longer.collect();
+    }
+    cases
+}
+
+/// What a variation changes.
+#[derive(Clone, Debug, PartialEq)]
+enum Drive {
+    Friction(Vec<usize>),
+    Gap(Vec<usize>),
+    Factor(Driven),
+    Obstacle(usize, usize),
+}
+
+impl Drive {
+    fn driven(&self) -> Option<Driven> {
+        match self {
+            Self::Factor(driven) => Some(*driven),
+            _ => None,
+        }
+    }
+}
+
+/// Everything that can vary, by name.
+struct Quantities(Vec<(String, Drive)>);
+
+impl Quantities {
+    fn new(bodies: &[Body], pairs: &[ContactPair]) -> Self {
+        let all: Vec<usize> = (0..pairs.len()).collect();
+        let mut known = vec![
+            ("friction".to_owned(), Drive::Friction(all.clone())),
+            ("gap".to_owned(), Drive::Gap(all)),
+        ];
+        let driven = driven(bodies).into_iter();
+        known.extend(driven.map(|(place, driven)| (place, Drive::Factor(driven))));
+        let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
+        for (at, pair) in pairs.iter().enumerate() {
+            known.push((
+                format!("contacts[{at}].friction"),
+                Drive::Friction(vec![at]),
+            ));
+            known.push((format!("contacts[{at}].gap"), Drive::Gap(vec![at])));
+            if matches!(pair.opposite, Opposite::Obstacle(_)) {
+                let axes = ["x", "y", "z"].into_iter().take(dimension).enumerate();
+                known.extend(axes.map(|(axis, name)| {
+                    (format!("contacts[{at}].{name}"), Drive::Obstacle(at, axis))
+                }));
+            }
+        }
+        Self(known)
+    }
+
+    fn find_all(&self, variations: &[Variation]) -> Result<Vec<Drive>, Error> {
+        for (number, Variation { name, .. }) in variations.iter().enumerate() {
+            if variations[..number].iter().any(|other| other.name == *name) {
+                return Err(Error::NotAccepted {
+                    place: "vary".to_owned(),
+                    found: format!("`{name}` twice"),
+                    accepted: "every quantity once".to_owned(),
+                });
+            }
+        }
+        let found = variations.iter().map(|variation| self.find(variation));
+        found.collect()
+    }
+
+    fn find(&self, variation: &Variation) -> Result<Drive, Error> {
+        let name = &variation.name;
+        let Some((_, drive)) = self.0.iter().find(|(known, _)| known == name) else {
+            return Err(Error::UnknownName {
+                place: "vary".to_owned(),
+                what: "quantity",
+                name: name.clone(),
+                nearest: None,
+                known: self.0.iter().map(|(name, _)| name.clone()).collect(),
+            });
+        };
+        if variation.values.is_empty() {
+            return Err(Error::Empty {
+                place: name.clone(),
+            });
+        }
+        check_finite(name, &variation.values)?;
+        let negative = variation.values.iter().copied().find(|value| *value < 0.0);
+        match (drive, negative) {
+            (Drive::Friction(_), Some(value)) => Err(Error::OutOfRange {
+                place: name.clone(),
+                value,
+                accepted: "friction >= 0",
+            }),
+            _ => Ok(drive.clone()),
+        }
+    }
+}
+
+/// What the scene states, before any case.
+struct Stated {
+    setup: Setup,
+    under: Superposition,
+    names: Vec<String>,
+    drives: Vec<Drive>,
+    friction: Vec<f64>,
+    gaps: Vec<f64>,
+}
+
+impl Stated {
+    /// Solves cases that differ little, each from the solution of the one before.
+    fn solve(&self, chain: &[Vec<f64>], mut done: impl FnMut()) -> Result<Table, Error> {
+        let mut table = Table::default();
+        let mut near: Option<Outcome> = None;
+        for values in chain {
+            let setup = self.put(values)?;
+            let (problem, settings) = (setup.condensed.problem(), &setup.settings);
+            let outcome = match &near {
+                Some(near) => alternation::solve_near(problem, settings, near)?,
+                None => alternation::solve(problem, settings)?,
+            };
+            near = (outcome.status == Status::Certified).then(|| outcome.clone());
+            let report = setup.recover(outcome)?.report()?;
+            let given = self.names.iter().cloned().zip(values.iter().copied());
+            table.push(&given.collect::<Vec<_>>(), &report);
+            done();
+        }
+        Ok(table)
+    }
+
+    /// The bodies under the values of a case.
+    fn put(&self, values: &[f64]) -> Result<Setup, Error> {
+        let pairs = self.friction.len();
+        let (mut friction, mut gaps) = (self.friction.clone(), vec![0.0; pairs]);
+        let (mut obstacles, mut factors) = (vec![[0.0; 3]; pairs], Vec::new());
+        for (drive, &value) in self.drives.iter().zip(values) {
+            match drive {
+                Drive::Friction(contacts) => contacts.iter().for_each(|&k| friction[k] = value),
+                Drive::Gap(contacts) => contacts.iter().for_each(|&k| gaps[k] += value),
+                Drive::Obstacle(contact, axis) => obstacles[*contact][*axis] = value,
+                Drive::Factor(_) => factors.push(value),
+            }
+        }
+        let mut setup = self.setup.clone();
+        let contacts = &setup.condensed.surface().nodes;
+        let friction = contacts
+            .iter()
+            .map(|contact| friction[contact.pair])
+            .collect();
+        let parted = contacts.iter().zip(&self.gaps);
+        let gaps = parted
+            .map(|(contact, gap)| gap + gaps[contact.pair])
+            .collect();
+        setup.condensed.replace(friction, gaps)?;
+        let slip = vec![0.0; setup.condensed.problem().unknowns()];
+        let condensed = &mut setup.condensed;
+        condensed.act(&self.under, &factors, &obstacles, &slip)?;
+        Ok(setup)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_variation_changes_fastest() {
+        let vary = |values: &[f64]| Variation {
+            name: String::new(),
+            values: values.to_vec(),
+        };
+        let found = combinations(&[vary(&[1.0, 2.0]), vary(&[3.0, 4.0])]);
+        assert_eq!(found, [[1.0, 3.0], [1.0, 4.0], [2.0, 3.0], [2.0, 4.0]]);
+        assert_eq!(combinations(&[]), [[0.0; 0]; 1]);
+    }
+}

@@ -1,0 +1,342 @@
+//! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge; a load history
+//! goes round the last three.
+
+mod cases;
+mod halving;
+mod limit;
+mod steps;
+mod substep;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::alternation::{Earlier, Outcome, Settings, Shortfall, Status};
+use crate::body::Body;
+use crate::condensation::Condensed;
+use crate::contact::ContactPair;
+use crate::error::Error;
+use crate::kkt::{Balance, Worst};
+use crate::report::vtu::BodyFields;
+use crate::report::{Continuity, Report, ReportParts, StageWork, Trust, replace_file, vtu};
+use crate::scene::{Mechanics, Scene};
+use crate::{alternation, body, kkt};
+
+pub use cases::{Variation, sweep, sweep_watched};
+pub use halving::Halving;
+pub use limit::limit;
+pub use steps::{SolvedStep, solve_steps};
+
+/// Solves a scene; one with load steps to its end, or to the first state that is not certified.
+///
+/// # Errors
+///
+/// Whatever is wrong with the scene. A solve that does not converge is no error:
+/// see [`Solution::status`].
+pub fn solve(scene: &Scene) -> Result<Solution, Error> {
+    solve_steps(scene, None, |_| Ok(()))
+}
+
+/// What stays from state to state, and what acts on the bodies; copies share all that is large.
+#[derive(Clone, Debug)]
+struct Setup {
+    title: String,
+    units: String,
+    bodies: Arc<[Body]>,
+    pairs: Arc<[ContactPair]>,
+    settings: Settings,
+    condensed: Condensed,
+}
+
+impl Setup {
+    fn new(scene: &Scene, mechanics: Mechanics) -> Result<Self, Error> {
+        let Mechanics {
+            bodies,
+            contacts: pairs,
+            settings,
+            ..
+        } = mechanics;
+        let condensed = Condensed::new(&bodies, &pairs)?;
+        Ok(Self {
+            title: scene.title.clone(),
+            units: scene.units.clone(),
+            bodies: bodies.into(),
+            pairs: pairs.into(),
+            settings,
+            condensed,
+        })
+    }
+
+    /// Recovers the bodies of a solved problem, and measures them.
+    fn recover(self, outcome: Outcome) -> Result<Solution, Error> {
+        let start = Instant::now();
+        let condensed = &self.condensed;
+        let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
+        let seconds = start.elapsed().as_secs_f64();
+        let mut solution = self.measure(outcome, displacements)?;
+        solution.recovery_seconds += seconds;
+        Ok(solution)
+    }
+
+    /// Measures recovered bodies; contacts of a body that is not in equilibrium have no certificate.
+    fn measure(
+        self,
+        mut outcome: Outcome,
+        displacements: Vec<Vec<f64>>,
+    ) -> Result<Solution, Error> {
+        let start = Instant::now();
+        let condensed = &self.condensed;
+        let states = self.body_states(&outcome.reaction, &displacements);
+        let balances: Vec<Balance> = states.iter().map(kkt::balance).collect::<Result<_, _>>()?;
+        let out = balances.iter().position(|balance| !balance.holds());
+        if let (Some(body), Status::Certified) = (out, outcome.status) {
+            let part = balances[body].equilibrium.scaled;
+            outcome.status = Status::NotConverged;
+            outcome.shortfall = Some(Shortfall::OutOfBalance { body, part });
+        }
+        let problem = condensed.problem();
+        let departure = kkt::surface_departure(
+            &self.bodies,
+            &displacements,
+            condensed.surface(),
+            problem,
+            &problem.total_displacement(&outcome.verdict.displacement),
+        )?;
+        let recovery_seconds = start.elapsed().as_secs_f64();
+        Ok(Solution {
+            setup: self,
+            outcome,
+            displacements,
+            balances,
+            departure,
+            recovery_seconds,
+            step: None,
+        })
+    }
+
+    fn body_states<'a>(
+        &'a self,
+        reaction: &'a [f64],
+        displacements: &'a [Vec<f64>],
+    ) -> Vec<kkt::BodyState<'a>> {
+        kkt::BodyState::of_bodies(&self.bodies, &self.condensed, reaction, displacements)
+    }
+}
+
+/// A solved scene.
+#[derive(Debug)]
+pub struct Solution {
+    setup: Setup,
+    outcome: Outcome,
+    displacements: Vec<Vec<f64>>,
+    balances: Vec<Balance>,
+    departure: Worst,
+    recovery_seconds: f64,
+    step: Option<SolvedStep>,
+}
+
+impl Solution {
+    /// Certified, or why not.
+    #[must_use]
+    pub fn status(&self) -> Status {
+        self.outcome.status
+    }
+
+    /// The bodies, in the order of the scene.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.setup.bodies
+    }
+
+    /// The bodies, condensed onto their contact surface.
+    #[must_use]
+    pub fn condensed(&self) -> &Condensed {
+        &self.setup.condensed
+    }
+
+    /// Reactions, the judge's verdict, history and work of the outer loop.
+    #[must_use]
+    pub fn outcome(&self) -> &Outcome {
+        &self.outcome
+    }
+
+    /// Displacement per body and unknown (`node · dimension + axis`), in metre.
+    #[must_use]
+    pub fn displacements(&self) -> &[Vec<f64>] {
+        &self.displacements
+    }
+
+    /// Displacement of the node of a body nearest to a position before loading, in metre.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::UnknownIndex`] if there is no such body.
+    pub fn displacement_near(&self, body: usize, position: [f64; 3]) -> Result<[f64; 3], Error> {
+        let (Some(mesh), Some(displacement)) = (
+            self.setup.bodies.get(body).map(|body| &body.mesh),
+            self.displacements.get(body),
+        ) else {
+            return Err(Error::UnknownIndex {
+                place: "displacement".to_owned(),
+                what: "body",
+                index: body,
+                count: self.setup.bodies.len(),
+            });
+        };
+        let distance = |node: &[f64; 3]| {
+            (0..3)
+                .map(|axis| (node[axis] - position[axis]).powi(2))
+                .sum::<f64>()
+        };
+        let nodes = mesh.nodes.iter().enumerate();
+        let nearest = nodes.min_by(|(_, a), (_, b)| distance(a).total_cmp(&distance(b)));
+        let first = nearest.map_or(0, |(node, _)| node * mesh.dimension);
+        let mut near = [0.0; 3];
+        near[..mesh.dimension].copy_from_slice(&displacement[first..first + mesh.dimension]);
+        Ok(near)
+    }
+
+    /// Equilibrium of each whole body, measured by the judge.
+    #[must_use]
+    pub fn balances(&self) -> &[Balance] {
+        &self.balances
+    }
+
+    /// The answer under stable names.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn report(&self) -> Result<Report, Error> {
+        let work = self.setup.condensed.work();
+        let halving = self.step.as_ref().and_then(SolvedStep::halving);
+        let failure = self.outcome.failure.iter();
+        let motions: Vec<_> = failure
+            .flat_map(|failure| self.setup.condensed.motions(&failure.apparent))
+            .collect();
+        Report::new(&ReportParts {
+            title: &self.setup.title,
+            units: &self.setup.units,
+            bodies: &self.setup.bodies,
+            pairs: &self.setup.pairs,
+            surface: self.setup.condensed.surface(),
+            problem: self.setup.condensed.problem(),
+            outcome: &self.outcome,
+            displacements: &self.displacements,
+            motions: &motions,
+            balances: &self.balances,
+            departure: self.departure,
+            stages: &StageWork {
+                factorisations: work.factorisations,
+                assembly: work.assembly_seconds,
+                ordering: work.ordering_seconds,
+                factorisation: work.factorisation_seconds,
+                condensation: work.condensation_seconds,
+                recovery: self.recovery_seconds,
+            },
+            origins: self.step.as_ref().map_or(&[], |step| step.origins()),
+            step: self.step.as_ref().map(|step| step.record()),
+            notes: &halving
+                .and_then(Halving::note)
+                .map_or_else(Vec::new, |note| vec![note]),
+        })
+    }
+
+    /// Estimated error of the stress of all bodies relative to the stress, both in the energy
+    /// norm (B9); 0 where there is no stress.
+    #[must_use]
+    pub fn stress_error_estimate(&self) -> f64 {
+        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        let (mut error, mut energy) = (0.0, 0.0);
+        for (body, displacement) in solved {
+            let found = body::stress_recovery(body, displacement);
+            error += found.error;
+            energy += found.energy;
+        }
+        if energy > 0.0 {
+            (error / energy).sqrt()
+        } else {
+            0.0
+        }
+    }
+
+    /// Solves the contacts of a certified solution again from this many other starts, estimates how
+    /// much friction the alternation takes, and tells whether bodies jump on the way here; none for a
+    /// solution without certificate.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn trust(&self, starts: usize) -> Result<Option<Trust>, Error> {
+        let Some(continuity) = self.continuity()? else {
+            return Ok(None);
+        };
+        let problem = self.setup.condensed.problem();
+        let settings = &self.setup.settings;
+        let others = alternation::other_starts(problem, settings, &self.outcome, starts)?;
+        let contraction = alternation::contraction(problem, &self.outcome);
+        let normals = &problem.offsets()[..problem.contacts()];
+        Ok(Some(Trust::new(contraction, continuity, &others, normals)))
+    }
+
+    /// Whether a path of states leads here from the one before, or from rest where there is none, loads
+    /// changing in proportion; none for a solution without certificate.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn continuity(&self) -> Result<Option<Continuity>, Error> {
+        if self.status() != Status::Certified {
+            return Ok(None);
+        }
+        let problem = self.setup.condensed.problem();
+        let start = match &self.step {
+            None => &Earlier::rest(problem),
+            Some(step) => step.start(),
+        };
+        let way_back = alternation::way_back(problem, &self.setup.settings, &self.outcome, start)?;
+        Ok(Some(way_back.into()))
+    }
+
+    /// The load step that led here; none where the scene has no steps.
+    #[must_use]
+    pub fn step(&self) -> Option<&SolvedStep> {
+        self.step.as_ref()
+    }
+
+    /// Writes the bodies to `path` and their contact surface beside it, as VTU.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written; what stood there before is then left as it was.
+    pub fn write_vtu(&self, path: &Path) -> Result<(), Error> {
+        let solved = || self.setup.bodies.iter().zip(&self.displacements);
+        let stresses: Vec<_> = solved()
+            .map(|(body, displacement)| {
+                let of_cells = body::cell_stress(body, displacement);
+                (body::nodal_stress(body, displacement, &of_cells), of_cells)
+            })
+            .collect();
+        let fields: Vec<_> = solved()
+            .zip(&stresses)
+            .map(
+                |((body, displacement), (nodal_stress, cell_stress))| BodyFields {
+                    mesh: &body.mesh,
+                    displacement,
+                    nodal_stress,
+                    cell_stress,
+                },
+            )
+            .collect();
+        let of_bodies = vtu::body_vtu(&fields)?;
+        let facets = &self.setup.condensed.surface().facets;
+        let of_contact = vtu::contact_vtu(
+            &self.report()?,
+            &self.setup.bodies,
+            facets,
+            &self.displacements,
+        )?;
+        replace_file(path, &of_bodies)?;
+        replace_file(&vtu::contact_path(path), &of_contact)
+    }
+}

@@ -1,0 +1,27 @@
+//! THE PROBLEM: plain numbers between mechanics and solver.
+//!
+//! ```text
+//! (C1)   u = û + G t + R α         G: compliance, α: motion of what contact alone holds
+//! (C3)   Rᵀ t + e = 0              rigid body modes R, load e on them
+//! (C13)  u = û − u_ref + G t       a load step, seen from where the last one ended
+//! ```
+//!
+//! Contact `i` has a block of unknowns, the normal first, then its tangents. A
+//! [`ContactProblem`] is an [`Operator`], a free displacement, an initial gap and a coefficient of
+//! friction per contact, and the free modes of bodies that [float](Floating).
+//!
+//! | part | file |
+//! |---|---|
+//! | the problem of a load step (C13) | `contact_problem` |
+//! | compliance, and stiffness where it exists | `operator` |
+//! | bodies that contact alone holds (C3) | `floating` |
+//! | their motions, free of units | `velocity_basis` |
+
+mod contact_problem;
+mod floating;
+mod operator;
+pub(crate) mod velocity_basis;
+
+pub use contact_problem::ContactProblem;
+pub use floating::Floating;
+pub use operator::Operator;
