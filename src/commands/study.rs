@@ -71,7 +71,7 @@ pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     }
     writeln!(out, "{}", arguments.out.join("index.html").display())?;
     let certified =
-        |mesh: &dpana::report::StudiedMesh| mesh.status == dpana::report::Status::Certified;
+        |mesh: &dpana::report::StudiedMesh| mesh.status == dpana::report::ReportedStatus::Certified;
     Ok(match study.meshes.iter().all(certified) {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(1),

@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-3;
 
 /// What the contacts do in a failing motion.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
+pub struct FailureMotion {
     /// Rigid motion without the opening of its sliding contacts (H9); the motion itself if nothing is left so.
     pub motion: Vec<f64>,
     /// Contacts that slide.
@@ -29,7 +29,7 @@ pub struct Failure {
 impl RigidContacts {
     /// Reads a motion α, as from [`Equilibrium::Impossible`](super::Equilibrium::Impossible) or [`Limit`](super::Limit).
     #[must_use]
-    pub fn failure(&self, motion: &[f64]) -> Failure {
+    pub fn failure(&self, motion: &[f64]) -> FailureMotion {
         let velocity = self.velocity(motion);
         let (sliding, opening) = self.sliding_and_opening(motion, &velocity);
         let motion = if sliding.is_empty() {
@@ -38,7 +38,7 @@ impl RigidContacts {
             self.along_contacts(motion, &velocity, &sliding)
                 .unwrap_or_else(|| motion.to_vec())
         };
-        Failure {
+        FailureMotion {
             motion,
             sliding,
             opening,
@@ -89,7 +89,7 @@ mod tests {
     use crate::limit::tests::blocks::{Blocks, incline};
 
     /// What fails, its motion as translations and rotations about the origin, and the missing force.
-    fn failure(contacts: &RigidContacts, load: &[f64]) -> (Failure, f64) {
+    fn failure(contacts: &RigidContacts, load: &[f64]) -> (FailureMotion, f64) {
         match contacts.admissible(load).unwrap() {
             Equilibrium::Impossible { motion, excess } => (contacts.failure(&motion), excess),
             other => unreachable!("{other:?}"),

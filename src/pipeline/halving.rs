@@ -172,8 +172,8 @@ fn energy(ledger: &Ledger, elastic: f64) -> f64 {
 }
 
 impl Halving {
-    pub(super) fn record(self) -> report::Halving {
-        report::Halving {
+    pub(super) fn record(self) -> report::ReportedHalving {
+        report::ReportedHalving {
             parts: self.parts,
             dissipation: self.dissipation,
             contacts: self.contacts,

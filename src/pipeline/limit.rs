@@ -146,29 +146,29 @@ impl Case<'_> {
         &self,
         load: &[f64],
         pairs: &[ContactPair],
-    ) -> Result<report::LeastFriction, Error> {
+    ) -> Result<report::ReportedLeastFriction, Error> {
         Ok(match self.contacts.least_friction(load)? {
             LeastFriction::Multiple {
                 multiple, motion, ..
             } => {
                 let first = pairs.first().map_or(0.0, |pair| pair.friction);
                 let uniform = pairs.iter().all(|pair| pair.friction == first);
-                report::LeastFriction::Multiple {
+                report::ReportedLeastFriction::Multiple {
                     multiple,
                     coefficient: uniform.then_some(multiple * first),
                     motions: motion.map_or_else(Vec::new, |motion| self.motions(&motion)),
                 }
             }
-            LeastFriction::Never { motion, excess } => report::LeastFriction::Never {
+            LeastFriction::Never { motion, excess } => report::ReportedLeastFriction::Never {
                 motions: self.motions(&motion),
                 missing: excess,
             },
-            LeastFriction::Undecided => report::LeastFriction::Undecided,
+            LeastFriction::Undecided => report::ReportedLeastFriction::Undecided,
         })
     }
 
     /// How the bodies begin to move, in words and numbers.
-    fn motions(&self, motion: &[f64]) -> Vec<report::Motion> {
+    fn motions(&self, motion: &[f64]) -> Vec<report::ReportedMotion> {
         let apparent = self.contacts.failure(motion);
         let parts = self.rigid.motions(&apparent.motion);
         let opens_only = apparent.sliding.is_empty() && !apparent.opening.is_empty();

@@ -262,8 +262,8 @@ impl SolvedStep {
         &self.origins
     }
 
-    pub(super) fn record(&self) -> report::Step {
-        report::Step {
+    pub(super) fn record(&self) -> report::ReportedStep {
+        report::ReportedStep {
             number: self.number,
             at: self.at,
             driven: self.driven.clone(),

@@ -10,23 +10,23 @@ use crate::kkt;
 ///
 /// A residual that is infinite (the state is not finite) is written as `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Certificate {
+pub struct ReportedCertificate {
     /// Natural-map residual, relative to the reaction: the stopping test.
     pub natural_map: f64,
     /// Largest load on a free rigid motion that contact does not answer, in newton; absent
     /// where supports hold every body.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub equilibrium: Option<Defect>,
+    pub equilibrium: Option<ReportedDefect>,
     /// Largest penetration, in metre.
-    pub penetration: Worst,
+    pub penetration: ReportedWorst,
     /// Largest normal reaction that pulls, in newton.
-    pub tension: Worst,
+    pub tension: ReportedWorst,
     /// Largest work of a normal reaction across its gap, in joule.
-    pub complementarity: Worst,
+    pub complementarity: ReportedWorst,
     /// Largest excess of a friction force over its bound, in newton.
-    pub disc_excess: Worst,
+    pub disc_excess: ReportedWorst,
     /// Largest defect of the friction law's dissipation, in joule.
-    pub dissipation_defect: Worst,
+    pub dissipation_defect: ReportedWorst,
     /// Bipotential gap, in joule.
     pub bipotential_gap: f64,
     /// Energy of the reaction, in joule: what the bipotential gap is compared with.
@@ -37,14 +37,14 @@ pub struct Certificate {
     pub condition: Option<f64>,
     /// Largest difference between the displacement of a contact in the recovered bodies and
     /// in the condensed problem, in metre.
-    pub recovered: Worst,
+    pub recovered: ReportedWorst,
     /// Equilibrium of each whole body.
-    pub bodies: Vec<Balance>,
+    pub bodies: Vec<ReportedBalance>,
 }
 
 /// A residual with the contact where it is worst.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Worst {
+pub struct ReportedWorst {
     /// Size of the violation in physical units.
     pub value: f64,
     /// The same, relative to the load.
@@ -55,7 +55,7 @@ pub struct Worst {
 
 /// A residual with the mesh node where it is worst.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct WorstNode {
+pub struct ReportedWorstNode {
     /// Size of the violation in physical units.
     pub value: f64,
     /// The same, relative to the load.
@@ -66,28 +66,28 @@ pub struct WorstNode {
 
 /// Equilibrium of a whole body, measured; see [`kkt::Balance`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Balance {
+pub struct ReportedBalance {
     /// Name of the body.
     pub name: String,
     /// Largest nodal force that nothing carries, in newton.
-    pub equilibrium: WorstNode,
+    pub equilibrium: ReportedWorstNode,
     /// Largest departure from a given displacement, in metre.
-    pub support: WorstNode,
+    pub support: ReportedWorstNode,
     /// Given forces.
-    pub loads: Resultant,
+    pub loads: ReportedResultant,
     /// Contact forces on the body.
-    pub contact: Resultant,
+    pub contact: ReportedResultant,
     /// Support reactions on the body.
-    pub supports: Resultant,
+    pub supports: ReportedResultant,
     /// Length of the sum of all forces, in newton.
-    pub force_defect: Defect,
+    pub force_defect: ReportedDefect,
     /// Length of the sum of all moments, in newton metre.
-    pub moment_defect: Defect,
+    pub moment_defect: ReportedDefect,
 }
 
 /// Sum of forces and of their moments.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Resultant {
+pub struct ReportedResultant {
     /// Force in global axes, in newton.
     pub force: Vec<f64>,
     /// Moment about the origin, in newton metre; in 2D its single component.
@@ -96,14 +96,14 @@ pub struct Resultant {
 
 /// What is left of a sum that should vanish.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Defect {
+pub struct ReportedDefect {
     /// Size in physical units.
     pub value: f64,
     /// The same, relative to what was added.
     pub scaled: f64,
 }
 
-impl Certificate {
+impl ReportedCertificate {
     pub(super) fn new(parts: &ReportParts<'_>) -> Self {
         let measured = &parts.outcome.verdict.certificate;
         let bodies = parts.bodies.iter().zip(parts.balances);
@@ -120,29 +120,29 @@ impl Certificate {
             condition: parts.outcome.condition,
             recovered: parts.departure.into(),
             bodies: bodies
-                .map(|(body, balance)| Balance::new(body, balance))
+                .map(|(body, balance)| ReportedBalance::new(body, balance))
                 .collect(),
         }
     }
 }
 
-impl Balance {
+impl ReportedBalance {
     fn new(body: &Body, measured: &kkt::Balance) -> Self {
         let dimension = body.mesh.dimension;
         Self {
             name: body.name.clone(),
             equilibrium: measured.equilibrium.into(),
             support: measured.support.into(),
-            loads: Resultant::new(&measured.loads, dimension),
-            contact: Resultant::new(&measured.contact, dimension),
-            supports: Resultant::new(&measured.supports, dimension),
+            loads: ReportedResultant::new(&measured.loads, dimension),
+            contact: ReportedResultant::new(&measured.contact, dimension),
+            supports: ReportedResultant::new(&measured.supports, dimension),
             force_defect: measured.force_defect.into(),
             moment_defect: measured.moment_defect.into(),
         }
     }
 }
 
-impl Resultant {
+impl ReportedResultant {
     pub(super) fn new(sum: &kkt::Resultant, dimension: usize) -> Self {
         Self {
             force: in_dimension(sum.force, dimension),
@@ -154,7 +154,7 @@ impl Resultant {
     }
 }
 
-impl From<kkt::Worst> for Worst {
+impl From<kkt::Worst> for ReportedWorst {
     fn from(worst: kkt::Worst) -> Self {
         let kkt::Worst {
             value,
@@ -169,7 +169,7 @@ impl From<kkt::Worst> for Worst {
     }
 }
 
-impl From<kkt::WorstNode> for WorstNode {
+impl From<kkt::WorstNode> for ReportedWorstNode {
     fn from(worst: kkt::WorstNode) -> Self {
         let kkt::WorstNode {
             value,
@@ -184,7 +184,7 @@ impl From<kkt::WorstNode> for WorstNode {
     }
 }
 
-impl From<kkt::Defect> for Defect {
+impl From<kkt::Defect> for ReportedDefect {
     fn from(defect: kkt::Defect) -> Self {
         let kkt::Defect { value, scaled } = defect;
         Self { value, scaled }

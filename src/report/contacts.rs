@@ -9,7 +9,7 @@ use crate::kkt::{ContactStatus, global_force, relative_displacement};
 /// What a contact does, as reports spell it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum ContactState {
+pub enum ReportedContactState {
     /// No reaction.
     Open,
     /// Pressed and held by friction.
@@ -32,7 +32,7 @@ pub struct Contact {
     /// Unit normal, out of the body towards the other side.
     pub normal: Vec<f64>,
     /// What it does.
-    pub state: ContactState,
+    pub state: ReportedContactState,
     /// Distance left to the other side, in metre.
     pub gap: f64,
     /// Tangential displacement relative to the other side since the start of the load step,
@@ -129,7 +129,7 @@ fn per_area(force: f64, area: f64) -> Option<f64> {
     (area > 0.0).then(|| force / area)
 }
 
-impl From<ContactStatus> for ContactState {
+impl From<ContactStatus> for ReportedContactState {
     fn from(status: ContactStatus) -> Self {
         match status {
             ContactStatus::Open => Self::Open,

@@ -3,18 +3,18 @@
 use serde::Serialize;
 
 use super::ReportParts;
-use super::motion::{Motion, motions, sentence, significant};
+use super::motion::{ReportedMotion, motions, sentence, significant};
 
 /// A motion that no contact resists while the loads work on it, checked by the judge.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Failure {
+pub struct ReportedFailure {
     /// In words: which body moves how, and what force is missing.
     pub words: String,
     /// Force that is missing at the fastest sliding contact (if none slides, the fastest
     /// opening one), in newton.
     pub missing: f64,
     /// How the bodies begin to move.
-    pub motions: Vec<Motion>,
+    pub motions: Vec<ReportedMotion>,
     /// Contacts that slide, as indices into `contacts`.
     pub sliding: Vec<usize>,
     /// Contacts that open, as indices into `contacts`.
@@ -25,7 +25,7 @@ pub struct Failure {
     pub resistance: f64,
 }
 
-impl Failure {
+impl ReportedFailure {
     /// None where an equilibrium exists.
     pub(super) fn new(parts: &ReportParts<'_>) -> Option<Self> {
         let failure = parts.outcome.failure.as_ref()?;

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::Status;
+use super::ReportedStatus;
 
 /// A battery of cases that were built to break the method.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -25,7 +25,7 @@ pub struct HardCase {
     /// Number of contacts.
     pub contacts: usize,
     /// How it ended.
-    pub status: Status,
+    pub status: ReportedStatus,
     /// The judge's residual of the state that was returned.
     pub residual: f64,
     /// Condition of the compliance; `null` if it is singular or was not needed.
@@ -72,7 +72,7 @@ impl HardCases {
             let most = |of: fn(&HardCase) -> usize| family.iter().map(of).max().unwrap_or(0);
             let settled = family
                 .iter()
-                .filter(|case| case.status == Status::Certified);
+                .filter(|case| case.status == ReportedStatus::Certified);
             let residual = settled.map(|case| case.residual).fold(0.0, f64::max);
             let seconds: f64 = family.iter().map(|case| case.seconds).sum();
             let _ = writeln!(
@@ -105,9 +105,9 @@ impl HardCase {
     #[must_use]
     pub fn row(&self) -> String {
         let status = match self.status {
-            Status::Certified => "certified",
-            Status::NotConverged => "not converged",
-            Status::NoEquilibrium => "no equilibrium",
+            ReportedStatus::Certified => "certified",
+            ReportedStatus::NotConverged => "not converged",
+            ReportedStatus::NoEquilibrium => "no equilibrium",
         };
         let verdict = match self.missed.is_empty() {
             true => "pass".to_owned(),
@@ -136,7 +136,7 @@ mod tests {
             family: "gap",
             name: name.to_owned(),
             contacts: 4,
-            status: Status::Certified,
+            status: ReportedStatus::Certified,
             residual: 1e-15,
             condition: None,
             sweeps: 1,

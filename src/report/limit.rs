@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use super::motion::{Motion, sentence, significant};
+use super::motion::{ReportedMotion, sentence, significant};
 
 /// The limits of a scene's loads.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -14,7 +14,7 @@ pub struct Limits {
     /// Every load that the free motions feel, grown alone while the others stay.
     pub loads: Vec<LoadLimit>,
     /// How much friction the loads take as they stand.
-    pub least_friction: LeastFriction,
+    pub least_friction: ReportedLeastFriction,
 }
 
 /// How far one load can grow.
@@ -40,7 +40,7 @@ pub enum Beyond {
         /// The largest multiple.
         factor: f64,
         /// How the bodies begin to move there.
-        motions: Vec<Motion>,
+        motions: Vec<ReportedMotion>,
         /// The judge found the factor held, and a millionth more impossible.
         certified: bool,
     },
@@ -49,7 +49,7 @@ pub enum Beyond {
     /// The bodies are not held at any multiple, zero included.
     Never {
         /// How they move.
-        motions: Vec<Motion>,
+        motions: Vec<ReportedMotion>,
         /// Force that is missing at the fastest contact, in newton.
         missing: f64,
     },
@@ -60,7 +60,7 @@ pub enum Beyond {
 /// How much friction the loads take.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "limit", rename_all = "snake_case")]
-pub enum LeastFriction {
+pub enum ReportedLeastFriction {
     /// They are held from this multiple of the scene's coefficients on.
     Multiple {
         /// The least multiple; zero if the loads need no friction.
@@ -68,12 +68,12 @@ pub enum LeastFriction {
         /// The same as a coefficient, where all contacts have one.
         coefficient: Option<f64>,
         /// How the bodies begin to move just below it.
-        motions: Vec<Motion>,
+        motions: Vec<ReportedMotion>,
     },
     /// No friction holds them.
     Never {
         /// How the bodies move.
-        motions: Vec<Motion>,
+        motions: Vec<ReportedMotion>,
         /// Force that is missing at the fastest contact, in newton.
         missing: f64,
     },
@@ -127,7 +127,7 @@ impl Beyond {
     }
 }
 
-impl LeastFriction {
+impl ReportedLeastFriction {
     fn words(&self) -> String {
         match self {
             Self::Multiple { multiple: 0.0, .. } => "none is needed".to_owned(),

@@ -32,25 +32,28 @@ mod work;
 
 use serde::Serialize;
 
-pub use certificate::{Balance, Certificate, Defect, Resultant, Worst, WorstNode};
-pub use contacts::{Contact, ContactState};
-pub use failure::Failure;
+pub use certificate::{
+    ReportedBalance, ReportedCertificate, ReportedDefect, ReportedResultant, ReportedWorst,
+    ReportedWorstNode,
+};
+pub use contacts::{Contact, ReportedContactState};
+pub use failure::ReportedFailure;
 pub use figure::{Axis, Curve, Figure, Point};
 pub use file::replace_file;
 pub use hard::{HardCase, HardCases};
-pub use limit::{Beyond, LeastFriction, Limits, LoadLimit};
-pub use motion::Motion;
+pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
+pub use motion::ReportedMotion;
 pub(crate) use motion::motions;
 pub use plot::plot;
 pub use quality::Quality;
-pub use shortfall::{Reason, Shortfall};
-pub use step::{Halving, Ledger, Step};
+pub use shortfall::{Reason, ReportedShortfall};
+pub use step::{ReportedHalving, ReportedLedger, ReportedStep};
 pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
-pub use totals::{Exchange, PairTotals, Totals};
+pub use totals::{PairTotals, ReportedExchange, Totals};
 pub use trust::{Continuity, Trust, TrustedState};
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
-pub use work::{Seconds, StageWork, Sweep, Work};
+pub use work::{ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
 
 use crate::alternation::Outcome;
 use crate::body::Body;
@@ -68,20 +71,20 @@ pub struct Report {
     /// The scene's label of units; empty where it names none.
     pub units: String,
     /// How the solve ended.
-    pub status: Status,
+    pub status: ReportedStatus,
     /// Without a certificate: why (`reason`), and what to do (`advice`).
     #[serde(flatten)]
-    pub shortfall: Option<Shortfall>,
+    pub shortfall: Option<ReportedShortfall>,
     /// With `no_equilibrium`: what moves, and what is missing to hold it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub failure: Option<Failure>,
+    pub failure: Option<ReportedFailure>,
     /// The load step that led here; absent where the scene has none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub step: Option<Step>,
+    pub step: Option<ReportedStep>,
     /// Size of the problem.
     pub size: Size,
     /// Every law and the balance of every body, measured.
-    pub certificate: Certificate,
+    pub certificate: ReportedCertificate,
     /// What other starts led to, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub trust: Option<Trust>,
@@ -90,9 +93,9 @@ pub struct Report {
     /// How far pressure and stress can be trusted by eye.
     pub quality: Quality,
     /// What it took.
-    pub work: Work,
+    pub work: ReportedWork,
     /// Sweep by sweep.
-    pub history: Vec<Sweep>,
+    pub history: Vec<ReportedSweep>,
     /// What a reader should know besides the numbers.
     pub notes: Vec<String>,
     /// Contact by contact.
@@ -102,7 +105,7 @@ pub struct Report {
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Status {
+pub enum ReportedStatus {
     /// The natural-map residual is at most the tolerance.
     Certified,
     /// The best state found, with its residuals.
@@ -111,7 +114,7 @@ pub enum Status {
     NoEquilibrium,
 }
 
-impl Status {
+impl ReportedStatus {
     /// As JSON and tables spell it.
     #[must_use]
     pub const fn word(self) -> &'static str {
@@ -182,7 +185,7 @@ pub struct ReportParts<'a> {
     /// metre; empty where it counts from the bodies before loading.
     pub origins: &'a [[f64; 3]],
     /// The load step that led here.
-    pub step: Option<Step>,
+    pub step: Option<ReportedStep>,
     /// Notes of other stages; those on the contact surface are added here.
     pub notes: &'a [String],
 }
@@ -209,16 +212,21 @@ impl Report {
             title: parts.title.to_owned(),
             units: parts.units.to_owned(),
             status: parts.outcome.status.into(),
-            shortfall: Shortfall::of(parts.outcome),
-            failure: Failure::new(parts),
+            shortfall: ReportedShortfall::of(parts.outcome),
+            failure: ReportedFailure::new(parts),
             step: parts.step.clone(),
             size: Size::new(parts),
-            certificate: Certificate::new(parts),
+            certificate: ReportedCertificate::new(parts),
             trust: None,
             totals: Totals::new(parts, &exchanges, &forces),
             quality: Quality::new(parts, &contacts),
-            work: Work::new(parts),
-            history: parts.outcome.history.iter().map(Sweep::from).collect(),
+            work: ReportedWork::new(parts),
+            history: parts
+                .outcome
+                .history
+                .iter()
+                .map(ReportedSweep::from)
+                .collect(),
             notes: notes::notes(parts),
             contacts,
         })
@@ -238,7 +246,7 @@ impl Report {
     }
 }
 
-impl From<alternation::Status> for Status {
+impl From<alternation::Status> for ReportedStatus {
     fn from(status: alternation::Status) -> Self {
         match status {
             alternation::Status::Certified => Self::Certified,

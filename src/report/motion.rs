@@ -10,7 +10,7 @@ const NOTHING: f64 = 1e-3;
 
 /// How a body, or one unconnected part of it, moves: `translation + rotation × (x − centre)`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Motion {
+pub struct ReportedMotion {
     /// Name of the body.
     pub body: String,
     /// Mean position of the moving nodes, in metre.
@@ -24,12 +24,12 @@ pub struct Motion {
 }
 
 /// The parts that move at all; `slides` where a contact slides, else contacts only open.
-pub(crate) fn motions(bodies: &[Body], parts: &[PartMotion], slides: bool) -> Vec<Motion> {
+pub(crate) fn motions(bodies: &[Body], parts: &[PartMotion], slides: bool) -> Vec<ReportedMotion> {
     let largest = parts.iter().map(reach).fold(0.0, f64::max);
     let moving = parts.iter().filter(|part| reach(part) > NOTHING * largest);
     let named = moving.filter_map(|part| Some((bodies.get(part.body)?, part)));
     named
-        .map(|(body, part)| Motion {
+        .map(|(body, part)| ReportedMotion {
             body: body.name.clone(),
             centre: part.centre,
             translation: part.translation,
@@ -40,7 +40,7 @@ pub(crate) fn motions(bodies: &[Body], parts: &[PartMotion], slides: bool) -> Ve
 }
 
 /// `block slides along +x, lid tips about -z through (0.5, 0, 0)`.
-pub(crate) fn sentence(motions: &[Motion]) -> String {
+pub(crate) fn sentence(motions: &[ReportedMotion]) -> String {
     let each = motions.iter().map(|m| format!("{} {}", m.body, m.words));
     each.collect::<Vec<_>>().join(", ")
 }

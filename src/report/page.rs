@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::figure::escaped;
-use super::{Part, Status, StudiedRun, Study};
+use super::{Part, ReportedStatus, StudiedRun, Study};
 
 const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:960px;\
 margin:2em auto;padding:0 1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em}\
@@ -101,7 +101,7 @@ impl Study {
                     .map_or_else(|| "–".to_owned(), |e| format!("{e:.2}")),
             );
             row.extend(mesh.known.iter().map(|known| size(known.error)));
-            (mesh.status != Status::Certified, row)
+            (mesh.status != ReportedStatus::Certified, row)
         });
         table(page, "The default loop, mesh by mesh", &heads, rows);
     }
@@ -140,7 +140,7 @@ impl Study {
                 size(run.distance),
                 seconds(run.seconds),
             ];
-            (run.status != Status::Certified, row)
+            (run.status != ReportedStatus::Certified, row)
         });
         table(page, "Loops on the condensed problem", &heads, rows);
     }
@@ -152,7 +152,7 @@ impl Study {
         let certified = self
             .meshes
             .iter()
-            .filter(|mesh| mesh.status == Status::Certified)
+            .filter(|mesh| mesh.status == ReportedStatus::Certified)
             .count();
         let most = |count: fn(&super::StudiedMesh) -> usize| self.meshes.iter().map(count).max();
         if let (Some(sweeps), Some(steps)) = (most(|m| m.sweeps), most(|m| m.newton_steps)) {
@@ -191,7 +191,7 @@ impl Study {
         }
         said.extend(self.duels());
         for name in Self::loops(self.runs.iter()) {
-            for status in [Status::NotConverged, Status::NoEquilibrium] {
+            for status in [ReportedStatus::NotConverged, ReportedStatus::NoEquilibrium] {
                 let lost = self
                     .of_part(Part::Friction)
                     .filter(|run| run.name == name && run.status == status);
@@ -226,7 +226,7 @@ impl Study {
             let (contacts, passes) = (baseline.contacts, baseline.passes);
             let to = format!("{contacts} contacts to {:.0e}", baseline.tolerance);
             let (slow, fast) = (baseline.seconds, default.seconds);
-            said.push(match (baseline.status == Status::Certified, slow < fast) {
+            said.push(match (baseline.status == ReportedStatus::Certified, slow < fast) {
                 (false, _) => format!(
                     "{to}: Gauss–Seidel gave up after {passes} passes and {} s with a residual of \
                      {}; the default loop took {} s.",
@@ -297,11 +297,11 @@ fn table(
     *page += "</table></div>\n";
 }
 
-fn words(status: Status) -> &'static str {
+fn words(status: ReportedStatus) -> &'static str {
     match status {
-        Status::Certified => "certified",
-        Status::NotConverged => "gave up",
-        Status::NoEquilibrium => "no equilibrium",
+        ReportedStatus::Certified => "certified",
+        ReportedStatus::NotConverged => "gave up",
+        ReportedStatus::NoEquilibrium => "no equilibrium",
     }
 }
 

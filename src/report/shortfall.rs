@@ -8,7 +8,7 @@ use crate::alternation::{Outcome, Status};
 
 /// Why a solve ended as it did, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Shortfall {
+pub struct ReportedShortfall {
     /// Why, by a name that stays.
     pub reason: Reason,
     /// What to do.
@@ -52,7 +52,7 @@ impl Reason {
     }
 }
 
-impl Shortfall {
+impl ReportedShortfall {
     /// None for a certified answer.
     pub(super) fn of(outcome: &Outcome) -> Option<Self> {
         match outcome.status {
@@ -68,7 +68,7 @@ impl Shortfall {
     }
 }
 
-impl From<alternation::Shortfall> for Shortfall {
+impl From<alternation::Shortfall> for ReportedShortfall {
     fn from(shortfall: alternation::Shortfall) -> Self {
         let (reason, advice) = match shortfall {
             alternation::Shortfall::SweepLimit => (

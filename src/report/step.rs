@@ -6,7 +6,7 @@ use crate::kkt;
 
 /// A load step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Step {
+pub struct ReportedStep {
     /// From 1.
     pub number: usize,
     /// Its instant.
@@ -14,17 +14,17 @@ pub struct Step {
     /// Value of every table of the scene, under the place of what it drives.
     pub driven: Vec<(String, f64)>,
     /// Work and energy of this step.
-    pub ledger: Ledger,
+    pub ledger: ReportedLedger,
     /// The same since the start of the history.
-    pub total: Ledger,
+    pub total: ReportedLedger,
     /// What halving the step still changes; absent where the scene does not ask for it.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub halving: Option<Halving>,
+    pub halving: Option<ReportedHalving>,
 }
 
 /// A step that was solved in parts, and what halving these would change.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Halving {
+pub struct ReportedHalving {
     /// Parts that the step was solved in.
     pub parts: usize,
     /// Change of the dissipated energy, in joule.
@@ -37,7 +37,7 @@ pub struct Halving {
 
 /// Work and energy, in joule; see [`kkt::Ledger`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Ledger {
+pub struct ReportedLedger {
     /// Work of the given forces.
     pub loads: f64,
     /// Work of the moved supports.
@@ -53,7 +53,7 @@ pub struct Ledger {
     pub closure: f64,
 }
 
-impl From<kkt::Ledger> for Ledger {
+impl From<kkt::Ledger> for ReportedLedger {
     fn from(ledger: kkt::Ledger) -> Self {
         Self {
             loads: ledger.loads,

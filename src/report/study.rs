@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Cell, Certificate, Quality, Seconds, Size, Status, Table};
+use super::{Cell, Quality, ReportedCertificate, ReportedSeconds, ReportedStatus, Size, Table};
 
 /// A scene over meshes, tolerances, friction and loops.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -31,9 +31,9 @@ pub struct StudiedMesh {
     /// Nodes, cells, contacts.
     pub size: Size,
     /// How the default loop ended.
-    pub status: Status,
+    pub status: ReportedStatus,
     /// Every law, measured.
-    pub certificate: Certificate,
+    pub certificate: ReportedCertificate,
     /// Sweeps of the default loop.
     pub sweeps: usize,
     /// Its Newton steps.
@@ -116,7 +116,7 @@ pub struct StudiedRun {
     /// Natural-map residual at which it may stop.
     pub tolerance: f64,
     /// How it ended.
-    pub status: Status,
+    pub status: ReportedStatus,
     /// The judge's natural-map residual.
     pub natural_map: f64,
     /// √(η / ½ t·G t) of the judge's bipotential gap.
@@ -264,7 +264,7 @@ impl Part {
 impl StageSeconds {
     /// Of a report.
     #[must_use]
-    pub fn new(seconds: &Seconds) -> Self {
+    pub fn new(seconds: &ReportedSeconds) -> Self {
         let sweeps =
             seconds.predict + seconds.coulomb + seconds.normal + seconds.friction + seconds.judge;
         Self {

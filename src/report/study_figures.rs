@@ -1,7 +1,7 @@
 //! The figures of a study.
 
 use super::figure::{Axis, Curve, Figure, Point};
-use super::{Part, Status, StudiedMesh, StudiedRun, Study};
+use super::{Part, ReportedStatus, StudiedMesh, StudiedRun, Study};
 
 impl Study {
     /// The figures that the study has points for, each with a short name for its file.
@@ -47,7 +47,7 @@ impl Study {
             let points = self.meshes.iter().filter_map(|mesh| {
                 Some(Point {
                     at: [mesh.seconds.total, value(mesh)?],
-                    open: mesh.status != Status::Certified,
+                    open: mesh.status != ReportedStatus::Certified,
                 })
             });
             let points: Vec<Point> = points.collect();
@@ -109,7 +109,7 @@ impl Study {
             let name = format!("{} to {:.0e}", run.name, run.tolerance);
             let point = Point {
                 at: [run.contacts as f64, run.seconds],
-                open: run.status != Status::Certified,
+                open: run.status != ReportedStatus::Certified,
             };
             match curves.iter_mut().find(|curve| curve.name == name) {
                 Some(curve) => curve.points.push(point),
@@ -164,7 +164,7 @@ impl Study {
         let curve = |name: &str| {
             let own = self.of_part(Part::Loops).filter(|run| run.name == name);
             let points = own.flat_map(|run| {
-                let open = run.status != Status::Certified;
+                let open = run.status != ReportedStatus::Certified;
                 points(run).into_iter().map(move |at| Point { at, open })
             });
             Curve {
@@ -195,7 +195,7 @@ impl Study {
                         run.passes
                     } as f64,
                 ],
-                open: run.status != Status::Certified,
+                open: run.status != ReportedStatus::Certified,
             });
             let unit = if name == "NSGS" { ", passes" } else { "" };
             Curve {

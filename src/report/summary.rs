@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use super::digits::{number, size};
-use super::{Balance, Defect, Failure, Report, Shortfall, Status};
+use super::{
+    Report, ReportedBalance, ReportedDefect, ReportedFailure, ReportedShortfall, ReportedStatus,
+};
 
 /// How many contact pairs the summary lists before it only counts them.
 const LISTED: usize = 8;
@@ -32,9 +34,11 @@ pub(super) fn summary(report: &Report) -> String {
 
 fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
     let status = match report.status {
-        Status::Certified => "certified",
-        Status::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
-        Status::NoEquilibrium => "NO EQUILIBRIUM: no admissible contact forces hold the bodies",
+        ReportedStatus::Certified => "certified",
+        ReportedStatus::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
+        ReportedStatus::NoEquilibrium => {
+            "NO EQUILIBRIUM: no admissible contact forces hold the bodies"
+        }
     };
     let extent = &report.size;
     if !report.title.is_empty() {
@@ -49,7 +53,7 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         )?;
     }
     writeln!(text, "status          {status}")?;
-    if let Some(Shortfall { reason, advice }) = &report.shortfall {
+    if let Some(ReportedShortfall { reason, advice }) = &report.shortfall {
         writeln!(text, "reason          {}", reason.words())?;
         writeln!(text, "advice          {advice}")?;
     }
@@ -77,7 +81,7 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
 }
 
 /// What moves, and the force that is missing.
-fn missing(text: &mut String, failure: &Failure) -> std::fmt::Result {
+fn missing(text: &mut String, failure: &ReportedFailure) -> std::fmt::Result {
     writeln!(text, "motion          {}", failure.words)?;
     let (sliding, opening) = (failure.sliding.len(), failure.opening.len());
     writeln!(text, "contacts        {sliding} slide, {opening} open")
@@ -188,7 +192,7 @@ fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
         let place = format!("contact {}", worst.contact);
         violation(text, name, worst.value, worst.scaled, &place)?;
     }
-    if let Some(Defect { value, scaled }) = laws.equilibrium {
+    if let Some(ReportedDefect { value, scaled }) = laws.equilibrium {
         violation(text, "free motions", value, scaled, "")?;
     }
     balances(text, &laws.bodies)?;
@@ -196,8 +200,8 @@ fn violations(text: &mut String, report: &Report) -> std::fmt::Result {
 }
 
 /// Equilibrium where it is worst; the body's name only says something beside another body.
-fn balances(text: &mut String, bodies: &[Balance]) -> std::fmt::Result {
-    let of = |body: &Balance, node: String| match (bodies.len(), node.as_str()) {
+fn balances(text: &mut String, bodies: &[ReportedBalance]) -> std::fmt::Result {
+    let of = |body: &ReportedBalance, node: String| match (bodies.len(), node.as_str()) {
         (1, _) => node,
         (_, "") => format!("body `{}`", body.name),
         (_, node) => format!("body `{}`, {node}", body.name),
@@ -207,7 +211,7 @@ fn balances(text: &mut String, bodies: &[Balance]) -> std::fmt::Result {
         let place = of(body, format!("node {}", nodal.node));
         violation(text, "equilibrium", nodal.value, nodal.scaled, &place)?;
     }
-    type Sum = fn(&Balance) -> Defect;
+    type Sum = fn(&ReportedBalance) -> ReportedDefect;
     let sums: [(&str, Sum); 2] = [
         ("sum of forces", |body| body.force_defect),
         ("sum of moments", |body| body.moment_defect),

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::ReportParts;
-use super::certificate::{Defect, Resultant, in_dimension};
+use super::certificate::{ReportedDefect, ReportedResultant, in_dimension};
 use super::contacts::ContactForce;
 use crate::contact::ContactNode;
 use crate::kkt;
@@ -46,19 +46,19 @@ pub struct PairTotals {
     #[serde(flatten)]
     pub totals: Totals,
     /// What the opposite body receives; `null` for a rigid obstacle.
-    pub exchange: Option<Exchange>,
+    pub exchange: Option<ReportedExchange>,
 }
 
 /// What the opposite body of a pair receives, and what is left of action and reaction; see
 /// [`kkt::Exchange`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Exchange {
+pub struct ReportedExchange {
     /// Contact forces on the opposite body.
-    pub opposite: Resultant,
+    pub opposite: ReportedResultant,
     /// Length of the sum of the forces on both sides, in newton.
-    pub force_defect: Defect,
+    pub force_defect: ReportedDefect,
     /// Length of the sum of the moments on both sides, in newton metre; up to gap × friction.
-    pub moment_defect: Defect,
+    pub moment_defect: ReportedDefect,
 }
 
 /// Sums while contacts are met.
@@ -95,16 +95,16 @@ impl Totals {
         let pairs = pairs.map(|((pair, sums), exchange)| PairTotals {
             place: pair.place.clone(),
             totals: sums.totals(dimension, Vec::new()),
-            exchange: Exchange::new(exchange, dimension),
+            exchange: ReportedExchange::new(exchange, dimension),
         });
         all.totals(dimension, pairs.collect())
     }
 }
 
-impl Exchange {
+impl ReportedExchange {
     fn new(measured: &kkt::Exchange, dimension: usize) -> Option<Self> {
         Some(Self {
-            opposite: Resultant::new(&measured.opposite?, dimension),
+            opposite: ReportedResultant::new(&measured.opposite?, dimension),
             force_defect: measured.force_defect.into(),
             moment_defect: measured.moment_defect.into(),
         })
@@ -144,7 +144,7 @@ impl Sums {
     }
 
     fn totals(&self, dimension: usize, pairs: Vec<PairTotals>) -> Totals {
-        let Resultant { force, moment } = Resultant::new(&self.contact, dimension);
+        let ReportedResultant { force, moment } = ReportedResultant::new(&self.contact, dimension);
         Totals {
             open: self.open,
             stick: self.stick,

@@ -24,7 +24,7 @@ pub struct StageWork {
 
 /// Counts over the whole solve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Work {
+pub struct ReportedWork {
     /// Factorisations of the body's stiffness.
     pub factorisations: usize,
     /// Gauss–Seidel passes of the prediction.
@@ -44,12 +44,12 @@ pub struct Work {
     /// Newton steps.
     pub newton_steps: usize,
     /// Wall time by stage.
-    pub seconds: Seconds,
+    pub seconds: ReportedSeconds,
 }
 
 /// Wall time by stage in the order of the pipeline, in second.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Seconds {
+pub struct ReportedSeconds {
     /// Stiffness and loads.
     pub assembly: f64,
     /// Fill-reducing ordering.
@@ -78,7 +78,7 @@ pub struct Seconds {
 
 /// One sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Sweep {
+pub struct ReportedSweep {
     /// The judge's residual at its end.
     pub residual: f64,
     /// Interior-point iterations of the program over all Coulomb cones.
@@ -99,7 +99,7 @@ pub struct Sweep {
     pub seconds: f64,
 }
 
-impl Work {
+impl ReportedWork {
     pub(super) fn new(parts: &ReportParts<'_>) -> Self {
         let (stages, work) = (parts.stages, &parts.outcome.work);
         Self {
@@ -112,12 +112,12 @@ impl Work {
             friction_program_contacts: work.friction_program_contacts,
             cone_iterations: work.cone_iterations,
             newton_steps: work.newton_steps,
-            seconds: Seconds::new(parts),
+            seconds: ReportedSeconds::new(parts),
         }
     }
 }
 
-impl Seconds {
+impl ReportedSeconds {
     fn new(parts: &ReportParts<'_>) -> Self {
         let (stages, outer) = (parts.stages, parts.outcome.work.seconds);
         let mut seconds = Self {
@@ -156,7 +156,7 @@ impl Seconds {
     }
 }
 
-impl From<&SweepRecord> for Sweep {
+impl From<&SweepRecord> for ReportedSweep {
     fn from(record: &SweepRecord) -> Self {
         let [open, stick, slip] = record.open_stick_slip;
         Self {

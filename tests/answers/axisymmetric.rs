@@ -2,7 +2,7 @@
 
 use dpana::body::{CellKind, Facet, Group, Mesh, rectangle};
 use dpana::closed_forms::{FlatRoundPunch, HertzSphere, friction_of_stick_sphere};
-use dpana::report::{ContactState, Report};
+use dpana::report::{Report, ReportedContactState};
 use dpana::scene::MeshSource;
 use dpana::{Scene, Solution, Status, solve};
 use serde_json::{Value, json};
@@ -234,14 +234,14 @@ fn half_of_a_flat_punch_sticks_with_the_friction_that_goodman_says() {
         let sticks = report
             .contacts
             .iter()
-            .filter(|c| c.state == ContactState::Stick);
+            .filter(|c| c.state == ReportedContactState::Stick);
         let radius = sticks.map(|c| c.position[0]).fold(0.0, f64::max);
         // A cell of 0.02 on either side, and 1 % of β².
         assert!((radius - 0.5).abs() < 0.03, "{kind:?} {radius}");
         let slips = report
             .contacts
             .iter()
-            .filter(|c| c.state == ContactState::Slip);
+            .filter(|c| c.state == ReportedContactState::Slip);
         assert!(slips.clone().count() > 10 && slips.clone().all(|c| c.position[0] > radius));
     }
 }

@@ -1,7 +1,7 @@
 //! How far a load can grow before what only contact holds begins to move, and the least friction.
 
 use dpana::body::{CellKind, rectangle};
-use dpana::report::{Beyond, LeastFriction, Limits};
+use dpana::report::{Beyond, Limits, ReportedLeastFriction};
 use dpana::scene::MeshSource;
 use dpana::{Scene, Status, limit, solve};
 use serde_json::{Value, json};
@@ -105,7 +105,7 @@ fn the_pad_holds_3600_newton_and_needs_a_coefficient_of_0_297() {
     close(3564.0 * found, 3600.0, LIMIT);
     assert_eq!(words, "slides along +x");
     match limits.least_friction {
-        LeastFriction::Multiple {
+        ReportedLeastFriction::Multiple {
             coefficient: Some(coefficient),
             ..
         } => close(coefficient, 0.297, LIMIT),
@@ -155,7 +155,10 @@ fn a_load_that_is_not_held_at_all_says_so() {
         matches!(limits.loads[1].beyond, Beyond::Never { .. }),
         "{limits:?}"
     );
-    assert!(matches!(limits.least_friction, LeastFriction::Never { .. }));
+    assert!(matches!(
+        limits.least_friction,
+        ReportedLeastFriction::Never { .. }
+    ));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Load steps in halves: what the size of a step hides, and how far it is followed.
 
-use dpana::report::{Report, Step};
+use dpana::report::{Report, ReportedStep};
 use dpana::scene::SavedState;
 use dpana::{Scene, Status, solve_steps};
 use serde_json::{Value, json};
@@ -55,7 +55,7 @@ fn reports(scene: &Scene) -> Vec<Report> {
     reports
 }
 
-fn steps(reports: &[Report]) -> Vec<&Step> {
+fn steps(reports: &[Report]) -> Vec<&ReportedStep> {
     let steps = reports.iter().map(|report| report.step.as_ref().unwrap());
     steps.collect()
 }

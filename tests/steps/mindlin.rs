@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use dpana::body::{CellKind, Mesh, rectangle};
 use dpana::mesh_file::gmsh;
-use dpana::report::{Ledger, Report};
+use dpana::report::{Report, ReportedLedger};
 use dpana::scene::SceneSteps;
 use dpana::{Scene, Status, solve_steps};
 
@@ -347,7 +347,7 @@ fn area(reports: &[Report]) -> f64 {
 }
 
 /// What a cycle adds to the ledger; it must close, force by force.
-fn round(reports: &[Report]) -> Ledger {
+fn round(reports: &[Report]) -> ReportedLedger {
     // Certified to 1e-12, and two digits for the condition of G and for slips that up to 640 steps hand on; the
     // elastic energy is five hundred times what a cycle dissipates.
     let (first, last) = (&reports[0], &reports[reports.len() - 1]);
@@ -360,7 +360,7 @@ fn round(reports: &[Report]) -> Ledger {
         assert!(report.step.as_ref().unwrap().ledger.dissipation >= 0.0);
     }
     let [before, after] = [first, last].map(|report| report.step.as_ref().unwrap().total);
-    let cycle = Ledger {
+    let cycle = ReportedLedger {
         loads: after.loads - before.loads,
         supports: after.supports - before.supports,
         obstacles: after.obstacles - before.obstacles,

@@ -1,7 +1,7 @@
 //! Bodies that supports do not hold, or not in full: contact carries what statics demands, or the
 //! motion that nothing stops is named.
 
-use dpana::report::{Report, Status};
+use dpana::report::{Report, ReportedStatus};
 use dpana::{Scene, Solution, solve};
 use serde_json::{Value, json};
 
@@ -14,7 +14,12 @@ fn solved(scene: &Value) -> (Solution, Report) {
 /// A certified solution, with every body in balance.
 fn certified(scene: &Value) -> Report {
     let (_, report) = solved(scene);
-    assert_eq!(report.status, Status::Certified, "{}", report.summary());
+    assert_eq!(
+        report.status,
+        ReportedStatus::Certified,
+        "{}",
+        report.summary()
+    );
     assert!(report.certificate.natural_map <= 1e-12);
     assert!(report.certificate.equilibrium.unwrap().scaled <= 1e-12);
     for body in &report.certificate.bodies {
@@ -26,9 +31,14 @@ fn certified(scene: &Value) -> Report {
     report
 }
 
-fn no_equilibrium(scene: &Value) -> dpana::report::Failure {
+fn no_equilibrium(scene: &Value) -> dpana::report::ReportedFailure {
     let (_, report) = solved(scene);
-    assert_eq!(report.status, Status::NoEquilibrium, "{}", report.summary());
+    assert_eq!(
+        report.status,
+        ReportedStatus::NoEquilibrium,
+        "{}",
+        report.summary()
+    );
     report.failure.unwrap()
 }
 
@@ -270,7 +280,12 @@ fn a_block_that_floats_on_a_smooth_floor_is_a_uniform_patch() {
                        "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }]
     });
     let (solution, report) = solved(&scene);
-    assert_eq!(report.status, Status::Certified, "{}", report.summary());
+    assert_eq!(
+        report.status,
+        ReportedStatus::Certified,
+        "{}",
+        report.summary()
+    );
     // Certified to 1e-12; two digits for the ratio of a node's stiffness to the block's.
     for contact in &report.contacts {
         close(contact.pressure.unwrap(), p, 1e-10);
@@ -332,7 +347,7 @@ fn a_body_that_is_lifted_moves_off_and_one_without_loads_stays() {
         "block moves off along +y; missing holding force: 5"
     );
     let (solution, report) = solved(&block(json!([0, 0])));
-    assert_eq!(report.status, Status::Certified);
+    assert_eq!(report.status, ReportedStatus::Certified);
     assert!(solution.displacements()[0].iter().all(|u| *u == 0.0));
     assert_eq!(report.work.cone_iterations, 0);
 }

@@ -6,7 +6,7 @@ use super::body::padded;
 use super::document::{Cells, Document, Section};
 use crate::body::{Body, Facet};
 use crate::error::{Error, check_length};
-use crate::report::{Contact, ContactState, Report};
+use crate::report::{Contact, Report, ReportedContactState};
 
 /// The contact surface of a report as a VTU document. One point per contact in the
 /// report's order, on the contact's own body, then the facet corners that are no contacts.
@@ -160,10 +160,10 @@ fn vtk_facet(points: usize) -> u8 {
     }
 }
 
-fn vtk_state(state: ContactState) -> i32 {
+fn vtk_state(state: ReportedContactState) -> i32 {
     match state {
-        ContactState::Open => 0,
-        ContactState::Stick => 1,
-        ContactState::Slip => 2,
+        ReportedContactState::Open => 0,
+        ReportedContactState::Stick => 1,
+        ReportedContactState::Slip => 2,
     }
 }
