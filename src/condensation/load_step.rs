@@ -73,7 +73,7 @@ impl Condensed {
     #[must_use]
     pub fn slip(&self, displacement: &[f64], slip: &[f64]) -> Vec<f64> {
         let mut total: Vec<f64> = displacement.iter().zip(slip).map(|(u, s)| u + s).collect();
-        for &normal in &self.problem.offsets()[..self.problem.contacts()] {
+        for &normal in self.problem.normals() {
             total[normal] = 0.0;
         }
         total
@@ -84,7 +84,7 @@ impl Condensed {
         let mut reference = slip.to_vec();
         let moved = self.surface.obstacle_motions(obstacles);
         let contacts = self.surface.nodes.iter().zip(moved);
-        for ((contact, moved), &first) in contacts.zip(self.problem.offsets()) {
+        for ((contact, moved), &first) in contacts.zip(self.problem.normals()) {
             reference[first] = 0.0;
             for (row, entry) in contact.frame[..=contact.tangents]
                 .iter()

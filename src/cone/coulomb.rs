@@ -94,7 +94,7 @@ impl<'a> CoulombProgram<'a> {
         tolerance: f64,
     ) -> Option<CoulombSolution> {
         let mut linear = self.problem.free_displacement().to_vec();
-        for (contact, &n) in self.problem.offsets()[..shift.len()].iter().enumerate() {
+        for (contact, &n) in self.problem.normals().iter().enumerate() {
             linear[n] -= self.problem.friction()[contact] * shift[contact]
                 + self.problem.initial_gap()[contact];
         }
@@ -158,12 +158,12 @@ impl<'a> CoulombProgram<'a> {
 /// Per contact the inverse root of its compliance, with friction counted as `T` does.
 fn scales(problem: &ContactProblem) -> Vec<f64> {
     let g = problem.compliance();
-    let blocks = problem.offsets().windows(2).zip(problem.friction());
+    let blocks = problem.blocks().zip(problem.friction());
     let own: Vec<f64> = blocks
         .map(|(block, mu)| {
-            let tangents = (block[0] + 1..block[1]).map(|i| mu * mu * g[(i, i)]);
-            let sum = g[(block[0], block[0])] + tangents.sum::<f64>();
-            sum / (block[1] - block[0]) as f64
+            let n = block.start;
+            let tangents = (n + 1..block.end).map(|i| mu * mu * g[(i, i)]);
+            (g[(n, n)] + tangents.sum::<f64>()) / block.len() as f64
         })
         .collect();
     let largest = own.iter().copied().fold(0.0, f64::max);

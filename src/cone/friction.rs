@@ -97,7 +97,7 @@ impl<'a> FrictionHalfStep<'a> {
 
     /// `−μ t_N` per contact, in newton.
     fn friction_bounds(&self, reaction: &[f64]) -> Vec<f64> {
-        let normals = self.problem.offsets().iter().zip(self.problem.friction());
+        let normals = self.problem.normals().iter().zip(self.problem.friction());
         normals.map(|(&n, mu)| -mu * reaction[n].min(0.0)).collect()
     }
 

@@ -34,7 +34,7 @@ impl<'a> NormalHalfStep<'a> {
         roles: &mut [Role],
         tolerance: f64,
     ) -> Option<HalfStepWork> {
-        let normals = &self.problem.offsets()[..self.problem.contacts()];
+        let normals = self.problem.normals();
         for &n in normals {
             reaction[n] = 0.0;
         }
@@ -56,7 +56,7 @@ impl<'a> NormalHalfStep<'a> {
             let displacement = self.problem.displacement(reaction);
             let mut kept = true;
             for (contact, &n) in normals.iter().enumerate() {
-                let gap = self.problem.initial_gap()[contact] - displacement[n];
+                let gap = self.problem.gap(contact, &displacement);
                 let broken = match roles[contact] {
                     Role::Absent => gap < -tolerance * scale,
                     Role::Free => x[n] > 0.0,

@@ -63,10 +63,7 @@ impl<'a> WorkingSet<'a> {
 
     /// The unknowns of a contact that the half-step moves.
     pub(super) fn unknowns(&self, contact: usize) -> Range<usize> {
-        let (start, end) = (
-            self.problem.offsets()[contact],
-            self.problem.offsets()[contact + 1],
-        );
+        let Range { start, end } = self.problem.block(contact);
         match self.half {
             Half::Normal => start..start + 1,
             Half::Tangential => start + 1..end,

@@ -275,7 +275,7 @@ impl Solution {
         let settings = &self.setup.settings;
         let others = alternation::other_starts(problem, settings, &self.outcome, starts)?;
         let contraction = alternation::contraction(problem, &self.outcome);
-        let normals = &problem.offsets()[..problem.contacts()];
+        let normals = problem.normals();
         Ok(Some(Trust::new(contraction, continuity, &others, normals)))
     }
 

@@ -159,7 +159,7 @@ impl State {
         }
         let mut displacement = vec![0.0; problem.unknowns()];
         let contacts = surface.nodes.iter().zip(&self.relative);
-        for (&n, (contact, relative)) in problem.offsets().iter().zip(contacts) {
+        for (&n, (contact, relative)) in problem.normals().iter().zip(contacts) {
             let along = contact.frame[0].iter().zip(relative);
             displacement[n] = along.map(|(axis, u)| axis * u).sum();
         }

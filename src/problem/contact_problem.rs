@@ -10,6 +10,7 @@
 //! and so does everything that solves or judges: to them a step is a problem like any other,
 //! whose free displacement is `û − u_ref`. What does not change from step to step is shared.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use faer::linalg::matmul::matmul;
@@ -205,6 +206,37 @@ impl ContactProblem {
     #[must_use]
     pub fn offsets(&self) -> &[usize] {
         &self.offsets
+    }
+
+    /// The unknowns of a contact: the normal one first, then its tangents.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such contact.
+    #[must_use]
+    pub fn block(&self, contact: usize) -> Range<usize> {
+        self.offsets[contact]..self.offsets[contact + 1]
+    }
+
+    /// The unknowns of all contacts, contact by contact.
+    pub fn blocks(&self) -> impl ExactSizeIterator<Item = Range<usize>> + '_ {
+        (0..self.contacts()).map(|contact| self.block(contact))
+    }
+
+    /// The normal unknown of each contact.
+    #[must_use]
+    pub fn normals(&self) -> &[usize] {
+        &self.offsets[..self.contacts()]
+    }
+
+    /// `g₀ − u_N` of a contact at a displacement per unknown, in metre: what is left of the distance.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such contact, or `displacement` is shorter than the unknowns.
+    #[must_use]
+    pub fn gap(&self, contact: usize, displacement: &[f64]) -> f64 {
+        self.initial_gap[contact] - displacement[self.offsets[contact]]
     }
 
     /// Coefficient of friction per contact.

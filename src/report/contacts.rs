@@ -71,7 +71,7 @@ pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<
             position: in_dimension(contact.position, dimension),
             normal: in_dimension(contact.frame[0], dimension),
             state: parts.outcome.verdict.status[i].into(),
-            gap: gap(parts, i),
+            gap: parts.problem.gap(i, &parts.outcome.verdict.displacement),
             slip: in_dimension(slip(parts, i), dimension),
             area: contact.area,
             force: in_dimension(force.total, dimension),
@@ -86,11 +86,10 @@ pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<
 
 /// Reactions of all contacts, split into normal and friction.
 pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
-    let blocks = parts.problem.offsets().windows(2);
-    let nodes = parts.surface.nodes.iter().zip(blocks);
+    let nodes = parts.surface.nodes.iter().zip(parts.problem.blocks());
     nodes
-        .map(|(contact, ends)| {
-            let block = &parts.outcome.reaction[ends[0]..ends[1]];
+        .map(|(contact, block)| {
+            let block = &parts.outcome.reaction[block];
             let total = global_force(contact, block);
             let normal = global_force(contact, &block[..1]);
             ContactForce {
@@ -101,12 +100,6 @@ pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
             }
         })
         .collect()
-}
-
-/// `g₀ − u_N`, in metre.
-fn gap(parts: &ReportParts<'_>, contact: usize) -> f64 {
-    let normal = parts.problem.offsets()[contact];
-    parts.problem.initial_gap()[contact] - parts.outcome.verdict.displacement[normal]
 }
 
 /// `u − (u·n) n` of the relative displacement u in the recovered bodies, from the start of the

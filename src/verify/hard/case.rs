@@ -184,15 +184,16 @@ impl Posed {
 impl Answer {
     /// Sum of normal reactions, in newton.
     pub(super) fn normal(&self) -> f64 {
-        let normals = &self.problem.offsets()[..self.problem.contacts()];
-        normals.iter().map(|&n| self.outcome.reaction[n]).sum()
+        let normals = self.problem.normals().iter();
+        normals.map(|&n| self.outcome.reaction[n]).sum()
     }
 
     /// Sum of the first tangential reactions, in newton.
     pub(super) fn friction(&self) -> f64 {
-        let blocks = self.problem.offsets().windows(2);
-        let first = blocks.filter(|ends| ends[1] > ends[0] + 1);
-        first.map(|ends| self.outcome.reaction[ends[0] + 1]).sum()
+        let first = self.problem.blocks().filter(|block| block.len() > 1);
+        first
+            .map(|block| self.outcome.reaction[block.start + 1])
+            .sum()
     }
 
     /// Force of the supports on a body along an axis, in newton; not a number without bodies.

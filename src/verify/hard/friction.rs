@@ -61,7 +61,7 @@ fn uniform(case: Case, cells: usize) -> Case {
         };
         let contacts = &solution.condensed().surface().nodes;
         let mut worst = 0.0_f64;
-        for (contact, &n) in contacts.iter().zip(answer.problem.offsets()) {
+        for (contact, &n) in contacts.iter().zip(answer.problem.normals()) {
             let node = solution.bodies()[0].mesh.nodes[contact.node];
             let part = if node[0] == 0.0 { 0.5 } else { 1.0 };
             worst = worst.max((answer.outcome.reaction[n] / (part * of_cell) + 1.0).abs());

@@ -43,7 +43,7 @@ pub(super) fn cases() -> Result<Vec<Case>, Error> {
                 let largest = t.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
                 let smooth = (0..problem.contacts()).filter(|&k| problem.friction()[k] == 0.0);
                 let worst = smooth.fold(0.0_f64, |most, k| {
-                    most.max(t[problem.offsets()[k] + 1].abs())
+                    most.max(t[problem.normals()[k] + 1].abs())
                 });
                 Ok(worst / largest)
             }));
