@@ -12,7 +12,7 @@ use std::time::Instant;
 
 use dpana::report::Cell;
 use dpana::scene::{SceneLoad, SceneSupport};
-use dpana::{Scene, Variation, solve, sweep};
+use dpana::{Scene, Variation, cases, solve};
 use dragged_cube::dragged_cube;
 use generated_square::square;
 
@@ -45,7 +45,7 @@ fn steps(name: &str, count: usize, [first, last]: [f64; 2]) -> Variation {
 
 fn row(name: &str, scene: &Scene, variations: &[Variation]) -> Result<(), Box<dyn Error>> {
     let start = Instant::now();
-    let table = sweep(scene, variations)?;
+    let table = cases(scene, variations)?;
     let together = start.elapsed().as_secs_f64();
     let count = table.rows.len();
     let certified = table

@@ -53,7 +53,7 @@ pub mod verify;
 pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
-pub use pipeline::{Solution, Variation, limit, solve, solve_steps, sweep, sweep_watched};
+pub use pipeline::{Solution, Variation, cases, cases_watched, limit, solve, solve_steps};
 pub use problem::ContactProblem;
 pub use scene::Scene;
 pub use study::study;

@@ -1,4 +1,4 @@
-//! The command line: solve, sweep, limit, study, check, schema, verify.
+//! The command line: solve, cases, limit, study, check, schema, verify.
 
 mod commands;
 
@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{Check, Limit, Solve, Study, Sweep, Verify};
+use commands::{Cases, Check, Limit, Solve, Study, Verify};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -26,7 +26,8 @@ enum Command {
     Solve(Solve),
     /// Solve a scene for many values of friction, loads, gaps or obstacle positions, on one
     /// factorisation.
-    Sweep(Sweep),
+    #[command(alias = "sweep")]
+    Cases(Cases),
     /// Say by what factor each load can grow before nothing holds the bodies that only
     /// contact holds, and how much friction they take.
     Limit(Limit),
@@ -44,7 +45,7 @@ enum Command {
 fn main() -> ExitCode {
     let done = match CommandLine::parse().command {
         Command::Solve(arguments) => commands::solve(&arguments),
-        Command::Sweep(arguments) => commands::sweep(&arguments),
+        Command::Cases(arguments) => commands::cases(&arguments),
         Command::Limit(arguments) => commands::limit(&arguments),
         Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),

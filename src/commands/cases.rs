@@ -1,4 +1,4 @@
-//! `dpana sweep`: one scene under many values.
+//! `dpana cases`: one scene under many values.
 
 use std::error::Error;
 use std::io::{self, Write};
@@ -13,7 +13,7 @@ use super::outputs::{check_output, write_table};
 use super::progress::Progress;
 
 #[derive(Args)]
-pub(crate) struct Sweep {
+pub(crate) struct Cases {
     /// Scene in JSON, without load steps.
     scene: PathBuf,
     /// Quantity and its values: `friction=0.1:0.9:17` (from, to, how many) or `gap=0,1e-3`.
@@ -27,13 +27,13 @@ pub(crate) struct Sweep {
     out: PathBuf,
 }
 
-pub(crate) fn sweep(arguments: &Sweep) -> Result<ExitCode, Box<dyn Error>> {
+pub(crate) fn cases(arguments: &Cases) -> Result<ExitCode, Box<dyn Error>> {
     check_output("--out", &arguments.out, &arguments.scene)?;
     let variations = arguments.vary.iter().map(|text| variation(text));
     let variations: Vec<Variation> = variations.collect::<Result<_, _>>()?;
     let progress = Progress::new();
     let scene = Scene::from_file(&arguments.scene)?;
-    let table = dpana::sweep_watched(&scene, &variations, |done, all| {
+    let table = dpana::cases_watched(&scene, &variations, |done, all| {
         progress.show(&format!("{done} of {all} cases"));
     })?;
     drop(progress);

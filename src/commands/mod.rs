@@ -10,7 +10,7 @@ mod solve;
 mod study;
 mod verify;
 
-pub(crate) use cases::{Sweep, sweep};
+pub(crate) use cases::{Cases, cases};
 pub(crate) use check::{Check, check};
 pub(crate) use limit::{Limit, limit};
 pub(crate) use schema::schema;

@@ -44,16 +44,16 @@ const CHAIN: usize = 25;
 ///
 /// Whatever is wrong with the scene, a scene with load steps, a quantity that it does not have or
 /// that is given twice, a value that the quantity cannot take.
-pub fn sweep(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
-    sweep_watched(scene, variations, |_, _| {})
+pub fn cases(scene: &Scene, variations: &[Variation]) -> Result<Table, Error> {
+    cases_watched(scene, variations, |_, _| {})
 }
 
 /// The same, telling `done` after every case how many of how many are solved.
 ///
 /// # Errors
 ///
-/// Those of [`sweep`].
-pub fn sweep_watched(
+/// Those of [`cases`].
+pub fn cases_watched(
     scene: &Scene,
     variations: &[Variation],
     done: impl Fn(usize, usize) + Sync,
@@ -64,7 +64,7 @@ pub fn sweep_watched(
         return Err(at_scene(Error::NotAccepted {
             place: "steps".to_owned(),
             found: "a load history".to_owned(),
-            accepted: "a scene without steps, of which a sweep solves many".to_owned(),
+            accepted: "a scene without steps, of which `cases` solves many".to_owned(),
         }));
     }
     let quantities = Quantities::new(&mechanics.bodies, &mechanics.contacts);

@@ -22,7 +22,7 @@ use crate::report::{Continuity, Report, ReportParts, StageWork, Trust, replace_f
 use crate::scene::{Mechanics, Scene};
 use crate::{alternation, body, kkt};
 
-pub use cases::{Variation, sweep, sweep_watched};
+pub use cases::{Variation, cases, cases_watched};
 pub use halving::Halving;
 pub use limit::limit;
 pub use steps::{SolvedStep, solve_steps};

@@ -4,7 +4,7 @@ use std::process::Command;
 use std::sync::Mutex;
 
 use dpana::report::{Cell, Table};
-use dpana::{Scene, Variation, solve, sweep, sweep_watched};
+use dpana::{Scene, Variation, cases, cases_watched, solve};
 use serde_json::{Value, json};
 
 fn block() -> Value {
@@ -47,7 +47,7 @@ fn every_case_is_the_scene_solved_alone() {
         vary("gap", &[0.0, 1e-4]),
         vary("contacts[0].y", &[0.0, 3e-4]),
     ];
-    let table = sweep(&scene(&block()), &variations).unwrap();
+    let table = cases(&scene(&block()), &variations).unwrap();
     assert_eq!(table.rows.len(), 24);
     assert!(
         table
@@ -101,7 +101,7 @@ fn every_case_is_the_scene_solved_alone() {
 #[test]
 fn friction_that_the_scene_does_not_have_is_swept_all_the_same() {
     let friction = [0.0, 0.1, 0.3];
-    let table = sweep(&scene(&block()), &[vary("contacts[0].friction", &friction)]).unwrap();
+    let table = cases(&scene(&block()), &[vary("contacts[0].friction", &friction)]).unwrap();
     let forces: Vec<f64> = (0..3)
         .map(|row| number(&table, row, "friction_x").abs())
         .collect();
@@ -118,7 +118,7 @@ fn cases_that_change_no_contact_take_one_newton_step_and_no_cone_program() {
         let mut stated = block();
         stated["contacts"][0]["friction"] = json!(0.2);
         stated["bodies"][0]["loads"] = json!([{"body_force": [2, -8]}]);
-        sweep(&scene(&stated), &[vary("bodies[0].loads[0]", load)]).unwrap()
+        cases(&scene(&stated), &[vary("bodies[0].loads[0]", load)]).unwrap()
     };
     let table = loaded(&[1.0, 0.3, 2.5, 7.0, 0.5]);
     assert!(number(&table, 0, "stick") > 0.0 && number(&table, 0, "slip") > 0.0);
@@ -148,7 +148,7 @@ fn a_body_that_only_contact_holds_is_swept_to_where_it_slides_off() {
             "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}}}]
     });
     let pushes = [0.0, 0.9, -0.5, 1.1, 0.3, -0.99];
-    let table = sweep(&scene(&pad), &[vary("bodies[0].loads[1]", &pushes)]).unwrap();
+    let table = cases(&scene(&pad), &[vary("bodies[0].loads[1]", &pushes)]).unwrap();
     for (row, push) in pushes.into_iter().enumerate() {
         let status = if push > 1.0 {
             "no_equilibrium"
@@ -174,7 +174,7 @@ fn progress_counts_every_case_once() {
         vary("gap", &[0.0, 1e-4, 2e-4]),
         vary("friction", &[0.1, 0.2]),
     ];
-    sweep_watched(&scene(&block()), &variations, |done, all| {
+    cases_watched(&scene(&block()), &variations, |done, all| {
         seen.lock().unwrap().push((done, all));
     })
     .unwrap();
@@ -186,7 +186,7 @@ fn progress_counts_every_case_once() {
 #[test]
 fn what_cannot_be_varied_is_refused_by_name() {
     let refused = |variation: Variation| {
-        sweep(&scene(&block()), &[variation])
+        cases(&scene(&block()), &[variation])
             .unwrap_err()
             .to_string()
     };
@@ -197,11 +197,11 @@ fn what_cannot_be_varied_is_refused_by_name() {
     assert!(refused(vary("gap", &[])).contains("gap: empty"));
     assert!(refused(vary("gap", &[f64::NAN])).contains("NaN is not a finite number"));
     let twice = [vary("gap", &[0.0]), vary("gap", &[1.0])];
-    let refused_twice = sweep(&scene(&block()), &twice).unwrap_err().to_string();
+    let refused_twice = cases(&scene(&block()), &twice).unwrap_err().to_string();
     assert!(refused_twice.contains("`gap` twice"), "{refused_twice}");
     let mut stepped = block();
     stepped["steps"] = json!({"at": [1]});
-    let refused = sweep(&scene(&stepped), &[vary("gap", &[0.0])])
+    let refused = cases(&scene(&stepped), &[vary("gap", &[0.0])])
         .unwrap_err()
         .to_string();
     assert!(refused.contains("a scene without steps"), "{refused}");

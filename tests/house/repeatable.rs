@@ -1,6 +1,6 @@
 //! The same scene gives the same bits in every run, and on any number of threads.
 
-use dpana::{Scene, Solution, Status, Variation, solve, sweep};
+use dpana::{Scene, Solution, Status, Variation, cases, solve};
 use rayon::ThreadPoolBuilder;
 use serde_json::json;
 
@@ -151,7 +151,7 @@ fn a_sweep_repeats_bit_by_bit() {
         variation("friction", &[0.1, 0.2, 0.4, 1.0]),
         variation("bodies[0].loads[0]", &[1.0, 0.5, 0.25]),
     ];
-    let run = || sweep(&square(), &variations).unwrap();
+    let run = || cases(&square(), &variations).unwrap();
     let once = run();
     assert_eq!(once.rows.len(), 12);
     assert!(once == run(), "two runs differ");

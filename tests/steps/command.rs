@@ -186,7 +186,7 @@ fn nothing_but_the_answer_is_said_where_nobody_watches() {
     assert!(output.status.success() && output.stderr.is_empty());
     let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/ssnv128.json");
     let vary = ["--vary", "friction=0.5,1", "--out", "t.csv"];
-    let output = dpana(&folder, &[&["sweep", scene], &vary[..]].concat());
+    let output = dpana(&folder, &[&["cases", scene], &vary[..]].concat());
     assert!(output.status.success() && output.stderr.is_empty());
 }
 
