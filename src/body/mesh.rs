@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::kinds::{CellKind, facet_reference};
+use crate::error::{Error, check_finite};
 
 /// One cell: its kind and its nodes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +75,63 @@ impl Mesh {
         }
     }
 
+    /// A mesh of one kind of cell from flat arrays, as other programs hold them.
+    ///
+    /// - `positions`: in metre, one number per axis of the kind's dimension, node after node;
+    /// - `cells`: node numbers from 0 in Gmsh's order, cell after cell.
+    ///
+    /// # Errors
+    ///
+    /// Arrays that are not whole nodes or whole cells, a position that is not finite, a node that is
+    /// not there.
+    pub fn from_arrays(kind: CellKind, positions: &[f64], cells: &[usize]) -> Result<Self, Error> {
+        let (dimension, count) = (kind.dimension(), kind.node_count());
+        check_whole("positions", positions.len(), dimension)?;
+        check_whole("cells", cells.len(), count)?;
+        check_finite("positions", positions)?;
+        let nodes = positions.chunks_exact(dimension).map(|stated| {
+            let mut position = [0.0; 3];
+            position[..dimension].copy_from_slice(stated);
+            position
+        });
+        let mut mesh = Self::new(dimension, nodes.collect());
+        let known = mesh.nodes.len();
+        if let Some(at) = cells.iter().position(|&node| node >= known) {
+            return Err(Error::UnknownIndex {
+                place: format!("cells[{at}]"),
+                what: "node",
+                index: cells[at],
+                count: known,
+            });
+        }
+        for nodes in cells.chunks_exact(count) {
+            mesh.push_cell(kind, nodes);
+        }
+        Ok(mesh)
+    }
+
+    /// Names the part of the surface whose nodes all lie where `inside` says, for supports, loads and
+    /// contacts.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Empty`] if there is no such facet.
+    pub fn with_surface(
+        mut self,
+        name: &str,
+        inside: impl Fn([f64; 3]) -> bool,
+    ) -> Result<Self, Error> {
+        let mut facets = self.boundary_facets();
+        facets.retain(|facet| facet.nodes.iter().all(|&node| inside(self.nodes[node])));
+        if facets.is_empty() {
+            return Err(Error::Empty {
+                place: format!("surface `{name}`"),
+            });
+        }
+        self.groups.insert(name.to_owned(), Group::Facets(facets));
+        Ok(self)
+    }
+
     /// Appends a cell; `nodes` has the kind's count of nodes.
     pub fn push_cell(&mut self, kind: CellKind, nodes: &[usize]) {
         if self.offsets.is_empty() {
@@ -124,5 +182,51 @@ impl Mesh {
     /// All cells in order.
     pub fn cells(&self) -> impl Iterator<Item = Cell<'_>> {
         (0..self.cell_count()).map(|index| self.cell(index))
+    }
+}
+
+/// Refuses an array that ends within a node or a cell.
+fn check_whole(place: &str, found: usize, of: usize) -> Result<(), Error> {
+    if found.is_multiple_of(of) {
+        return Ok(());
+    }
+    Err(Error::NotAccepted {
+        place: place.to_owned(),
+        found: format!("{found} entries"),
+        accepted: format!("a multiple of {of}"),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn arrays_become_a_mesh_with_named_surfaces() {
+        // Two unit squares side by side.
+        let positions = [0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 1.0];
+        let cells = [0, 1, 4, 3, 1, 2, 5, 4];
+        let mesh = Mesh::from_arrays(CellKind::Quad4, &positions, &cells).unwrap();
+        assert_eq!((mesh.dimension, mesh.cell_count()), (2, 2));
+        let mesh = mesh.with_surface("bottom", |[_, y, _]| y == 0.0).unwrap();
+        let Group::Facets(facets) = &mesh.groups["bottom"] else {
+            unreachable!("a group of facets");
+        };
+        assert_eq!(facets.len(), 2);
+        assert!(mesh.with_surface("inside", |[x, ..]| x == 1.0).is_err());
+    }
+
+    #[test]
+    fn arrays_that_are_no_mesh_are_refused_with_their_place() {
+        let say = |positions: &[f64], cells: &[usize]| {
+            let refused = Mesh::from_arrays(CellKind::Tri3, positions, cells);
+            refused.unwrap_err().to_string()
+        };
+        let corners = [0.0, 0.0, 1.0, 0.0, 0.0, 1.0];
+        assert!(say(&corners[..5], &[0, 1, 2]).contains("positions: 5 entries"));
+        assert!(say(&corners, &[0, 1]).contains("cells: 2 entries"));
+        assert!(say(&corners, &[0, 1, 3]).contains("cells[2]"));
+        assert!(say(&[f64::NAN; 6], &[0, 1, 2]).contains("positions"));
     }
 }

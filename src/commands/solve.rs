@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::report::{self, Continuity, Table, replace_file, vtu};
-use dpana::scene::{SavedState, Scene};
+use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
 use super::outputs::{check_output, write_table};
@@ -28,6 +28,11 @@ pub(crate) struct Solve {
     /// them (`FILE.pvd`).
     #[arg(long, value_name = "FILE")]
     vtu: Option<PathBuf>,
+    /// Draw the deformed bodies and the contact pressure to this file, in SVG; bodies in 2D only.
+    ///
+    /// A scene with load steps gets the drawing of its last state.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
     /// Write the totals of every state to this file: JSON if it ends so, else CSV.
     ///
     /// It is whole after every load step, and so are all other files of a history.
@@ -68,6 +73,7 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         })?),
     };
     let scene = Scene::from_file(&arguments.scene)?;
+    check_drawable(arguments, &scene)?;
     let from = match &arguments.restart {
         None => None,
         Some(path) => Some(saved_state(path)?),
@@ -185,6 +191,9 @@ impl<'a> States<'a> {
         } else if let Some(path) = &arguments.vtu {
             solution.write_vtu(path)?;
         }
+        if let Some(path) = &arguments.svg {
+            replace_file(path, &solution.to_svg()?)?;
+        }
         // Last, so that whoever takes the history on from here finds all that came before.
         match (&arguments.state, solution.saved_state()) {
             (Some(path), Some(state)) => replace_file(path, &state.to_json()),
@@ -213,6 +222,18 @@ fn rows_before(path: &Path, steps: usize) -> Result<Table, String> {
     })
 }
 
+/// Refuses a drawing of bodies in 3D before they are solved; those in 2D have a plane model.
+fn check_drawable(arguments: &Solve, scene: &Scene) -> Result<(), String> {
+    let plane = |body: &SceneBody| !matches!(body.model, None | Some(SceneModel::Solid));
+    match &arguments.svg {
+        Some(path) if !scene.bodies.iter().all(plane) => Err(format!(
+            "--svg {}: bodies in 3D; expected bodies in 2D (--vtu shows those in 3D)",
+            path.display()
+        )),
+        _ => Ok(()),
+    }
+}
+
 fn saved_state(path: &Path) -> Result<SavedState, Box<dyn Error>> {
     let text = fs::read_to_string(path)
         .map_err(|error| format!("--restart {}: {error}", path.display()))?;
@@ -224,6 +245,7 @@ fn check_outputs(arguments: &Solve) -> Result<(), String> {
     let outputs = [
         ("--report", &arguments.report),
         ("--vtu", &arguments.vtu),
+        ("--svg", &arguments.svg),
         ("--table", &arguments.table),
         ("--plot", &arguments.plot),
         ("--state", &arguments.state),

@@ -21,6 +21,28 @@ const BEYOND: (f64, f64) = (1e-6, 1e3);
 /// Bodies count as rigid here: no stiffness is factorised. Contacts that are open before
 /// loading count as if they could close.
 ///
+/// ```
+/// use dpana::report::Beyond;
+/// use dpana::{Scene, limit};
+///
+/// # fn main() -> Result<(), dpana::Error> {
+/// // A loose block of weight 10 N on a floor with μ = 0.3, pushed by 1 N.
+/// let scene = r#"{
+///     "bodies": [{ "mesh": { "rectangle": { "x": [0, 2], "y": [0, 1], "cells": [4, 2] } },
+///                  "model": "plane_strain",
+///                  "materials": [{ "young": 1000, "poisson": 0.3 }],
+///                  "loads": [{ "body_force": [0, -5] }, { "group": "left", "traction": [1, 0] }] }],
+///     "contacts": [{ "group": "bottom", "friction": 0.3,
+///                    "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }] }"#;
+/// let limits = limit(&Scene::from_json(scene, "")?)?;
+/// let Beyond::Grows { factor, certified, .. } = limits.loads[1].beyond else {
+///     panic!("friction holds no load without end");
+/// };
+/// assert!(certified && (factor - 3.0).abs() < 1e-6);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// # Errors
 ///
 /// Whatever is wrong with the scene, a scene with load steps, and one whose supports hold every body.

@@ -14,11 +14,13 @@ use std::time::Instant;
 use crate::alternation::{Earlier, Outcome, Settings, Shortfall, Status};
 use crate::body::Body;
 use crate::condensation::Condensed;
-use crate::contact::ContactPair;
+use crate::contact::{ContactPair, Opposite};
 use crate::error::Error;
 use crate::kkt::{Balance, Worst};
 use crate::report::vtu::BodyFields;
-use crate::report::{Continuity, Report, ReportParts, StageWork, Trust, replace_file, vtu};
+use crate::report::{
+    Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
+};
 use crate::scene::{Mechanics, Scene};
 use crate::{alternation, body, kkt};
 
@@ -302,6 +304,27 @@ impl Solution {
     #[must_use]
     pub fn step(&self) -> Option<&SolvedStep> {
         self.step.as_ref()
+    }
+
+    /// The deformed bodies and the contact pressure as a drawing in SVG.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotAccepted`] for bodies in 3D.
+    pub fn to_svg(&self) -> Result<String, Error> {
+        let obstacle = |pair: &ContactPair| match pair.opposite {
+            Opposite::Obstacle(obstacle) => Some(obstacle),
+            Opposite::Surface { .. } => None,
+        };
+        let obstacles: Vec<_> = self.setup.pairs.iter().filter_map(obstacle).collect();
+        Picture {
+            report: &self.report()?,
+            bodies: &self.setup.bodies,
+            displacements: &self.displacements,
+            facets: &self.setup.condensed.surface().facets,
+            obstacles: &obstacles,
+        }
+        .to_svg()
     }
 
     /// Writes the bodies to `path` and their contact surface beside it, as VTU.

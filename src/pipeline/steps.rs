@@ -12,6 +12,33 @@ use crate::{alternation, report};
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
 /// first state that is not certified, and returns that state.
 ///
+/// ```
+/// use dpana::{Scene, Status, solve_steps};
+///
+/// # fn main() -> Result<(), dpana::Error> {
+/// // Pressed, then pulled aside and let go again: friction remembers.
+/// let scene = r#"{
+///     "bodies": [{ "mesh": { "rectangle": { "x": [0, 2], "y": [0, 1], "cells": [8, 4] } },
+///                  "model": "plane_strain",
+///                  "materials": [{ "young": 1000, "poisson": 0.3 }],
+///                  "supports": [{ "group": "top", "displacement": [null, -0.01] },
+///                               { "group": "top", "displacement": [0.004, null] }] }],
+///     "contacts": [{ "group": "bottom", "friction": 0.3,
+///                    "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }],
+///     "steps": { "at": [1, 2, 3],
+///                "factors": { "bodies[0].supports[1]": [[1, 0], [2, 1], [3, 0]] } } }"#;
+/// let mut pull = Vec::new();
+/// let last = solve_steps(&Scene::from_json(scene, "")?, None, |solution| {
+///     pull.push(solution.report()?.totals.friction[0]);
+///     Ok(())
+/// })?;
+/// assert_eq!((last.status(), pull.len()), (Status::Certified, 3));
+/// // It slid out, so that back where it was friction pushes the other way.
+/// assert!(pull[0].abs() < 1e-9 && pull[1] < 0.0 && pull[2] > 0.0);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// `from` takes a history on after the step that it was saved at: bit for bit as if it had never
 /// been left, on as many threads. What comes after that step may have changed in the scene, not
 /// what led to it.

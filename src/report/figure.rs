@@ -2,6 +2,10 @@
 
 use std::fmt::Write;
 
+use super::Table;
+use super::svg::{escaped, line, plain, text};
+use crate::error::Error;
+
 /// Width and height of the drawing.
 const SIZE: [f64; 2] = [880.0, 440.0];
 
@@ -166,6 +170,52 @@ impl Figure {
     }
 }
 
+/// Draws column `y` of a table against column `x`, in the order of the rows.
+///
+/// # Errors
+///
+/// [`Error::UnknownName`] for a column that the table does not have, [`Error::Empty`] if it
+/// has no row of finite numbers.
+pub fn plot(table: &Table, x: &str, y: &str) -> Result<String, Error> {
+    let pairs = column(table, x)?.into_iter().zip(column(table, y)?);
+    let finite = pairs.filter(|(x, y)| x.is_finite() && y.is_finite());
+    let points = finite.map(|(x, y)| Point {
+        at: [x, y],
+        open: false,
+    });
+    let points: Vec<Point> = points.collect();
+    if points.is_empty() {
+        return Err(Error::Empty {
+            place: format!("plot of {y} against {x}"),
+        });
+    }
+    let [across, up] = [x, y].map(|label| Axis {
+        label: label.to_owned(),
+        logarithmic: false,
+    });
+    let figure = Figure {
+        title: format!("{y} against {x}"),
+        across,
+        up,
+        curves: vec![Curve {
+            name: y.to_owned(),
+            points,
+        }],
+        open: "",
+    };
+    Ok(figure.to_svg())
+}
+
+fn column(table: &Table, name: &str) -> Result<Vec<f64>, Error> {
+    table.column(name).ok_or_else(|| Error::UnknownName {
+        place: "plot".to_owned(),
+        what: "column",
+        name: name.to_owned(),
+        nearest: None,
+        known: table.columns.clone(),
+    })
+}
+
 /// Range of an axis, of logarithms where it has decades.
 struct Scale {
     logarithmic: bool,
@@ -324,27 +374,6 @@ fn dashes(number: usize) -> &'static str {
     }
 }
 
-fn line(svg: &mut String, [x, y, to_x, to_y]: [f64; 4]) {
-    let _ = writeln!(
-        svg,
-        "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"#ddd\"/>"
-    );
-}
-
-fn text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, words: &str) {
-    let words = escaped(words);
-    let _ = writeln!(
-        svg,
-        "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{words}</text>"
-    );
-}
-
-/// Words as they stand in SVG and HTML.
-pub(super) fn escaped(words: &str) -> String {
-    let words = words.replace('&', "&amp;").replace('<', "&lt;");
-    words.replace('>', "&gt;").replace('"', "&quot;")
-}
-
 /// `10⁻⁸`, and the number itself from 0.01 to 100.
 fn power_of_ten(power: i32) -> String {
     if (-2..=2).contains(&power) {
@@ -361,20 +390,11 @@ fn power_of_ten(power: i32) -> String {
     format!("10{}", raised.collect::<String>())
 }
 
-/// Three digits, without the round-off of a multiple.
-fn plain(value: f64) -> String {
-    let size = value.abs();
-    if value == 0.0 || (1e-3..1e5).contains(&size) {
-        let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-        rounded.to_string()
-    } else {
-        format!("{value:.0e}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::report::Cell;
 
     fn figure(logarithmic: bool, points: &[[f64; 2]]) -> Figure {
         let axis = |label: &str| Axis {
@@ -430,5 +450,33 @@ mod tests {
             }
         }
         assert!(figure(true, &[]).to_svg().ends_with("</svg>\n"));
+    }
+
+    fn table(rows: &[[f64; 2]]) -> Table {
+        let row = |row: &[f64; 2]| row.map(Cell::Number).to_vec();
+        Table {
+            columns: vec!["at".to_owned(), "normal".to_owned()],
+            rows: rows.iter().map(row).collect(),
+        }
+    }
+
+    #[test]
+    fn a_column_against_another_is_one_curve_on_even_axes() {
+        let rows = [[0.0, -1.0], [f64::NAN, 5.0], [2.0, 3.0]];
+        let svg = plot(&table(&rows), "at", "normal").unwrap();
+        // A twentieth of the range is free at both ends of the frame, 84 to 596 by 46 to 382.
+        assert!(svg.contains("points=\"107.3,366.7 572.7,61.3\""), "{svg}");
+    }
+
+    #[test]
+    fn a_column_that_is_not_there_is_named_with_those_that_are() {
+        let refused = plot(&table(&[[0.0, 1.0]]), "time", "normal");
+        let refused = refused.unwrap_err().to_string();
+        assert!(
+            refused.contains("no column `time`") && refused.contains("at"),
+            "{refused}"
+        );
+        assert!(plot(&table(&[]), "at", "normal").is_err());
+        assert!(plot(&table(&[[f64::NAN, 1.0]]), "at", "normal").is_err());
     }
 }

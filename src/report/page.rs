@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::figure::escaped;
+use super::svg::escaped;
 use super::{Part, ReportedStatus, StudiedRun, Study};
 
 const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:960px;\

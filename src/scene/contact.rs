@@ -77,6 +77,40 @@ pub enum SceneObstacle {
 }
 
 impl SceneContact {
+    /// A group of surface facets of the only body, which may touch an obstacle with this friction.
+    #[must_use]
+    pub fn on(obstacle: SceneObstacle, group: &str, friction: f64) -> Self {
+        Self {
+            group: group.to_owned(),
+            obstacle: Some(obstacle),
+            friction,
+            ..Self::default()
+        }
+    }
+
+    /// Surfaces of two bodies, or of one, which may touch each other with this friction; each is
+    /// `[body, group]`.
+    #[must_use]
+    pub fn between(own: [&str; 2], other: [&str; 2], friction: f64) -> Self {
+        Self {
+            group: own[1].to_owned(),
+            body: Some(own[0].to_owned()),
+            against: Some(SceneSurface {
+                body: Some(other[0].to_owned()),
+                group: other[1].to_owned(),
+            }),
+            friction,
+            ..Self::default()
+        }
+    }
+
+    /// The same for a surface of the body of this name.
+    #[must_use]
+    pub fn of(mut self, body: &str) -> Self {
+        self.body = Some(body.to_owned());
+        self
+    }
+
     /// The contact in the terms of mechanics.
     pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
         let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
@@ -152,6 +186,15 @@ fn find_body(place: &str, name: Option<&str>, bodies: &[Body]) -> Result<usize, 
 }
 
 impl SceneObstacle {
+    /// The half-space behind a plane through a point, in metre; `normal` points to the body.
+    #[must_use]
+    pub fn plane(point: &[f64], normal: &[f64]) -> Self {
+        Self::Plane {
+            point: point.to_vec(),
+            normal: normal.to_vec(),
+        }
+    }
+
     fn resolve(&self, place: &str, dimension: usize) -> Result<Obstacle, Error> {
         let (kind, lives_in) = match self {
             Self::Plane { .. } => ("plane", dimension),

@@ -72,7 +72,67 @@ pub struct SceneMaterial {
 /// Models of a mesh in 2D.
 const PLANE: &str = "plane_strain, plane_stress or axisymmetric for a mesh in 2D";
 
+impl SceneMaterial {
+    /// A material of all cells: Young's modulus in pascal, Poisson's ratio.
+    #[must_use]
+    pub fn new(young: f64, poisson: f64) -> Self {
+        Self {
+            group: None,
+            young,
+            poisson,
+        }
+    }
+
+    /// The same for a group of cells only.
+    #[must_use]
+    pub fn of(mut self, group: &str) -> Self {
+        self.group = Some(group.to_owned());
+        self
+    }
+}
+
 impl SceneBody {
+    /// A body on a mesh from memory, from a file or from a generator, with nothing on it yet.
+    #[must_use]
+    pub fn new(name: &str, mesh: impl Into<MeshSource>) -> Self {
+        Self {
+            name: name.to_owned(),
+            mesh: mesh.into(),
+            model: None,
+            materials: Vec::new(),
+            supports: Vec::new(),
+            loads: Vec::new(),
+        }
+    }
+
+    /// The body with a model, which one in 2D needs.
+    #[must_use]
+    pub fn with_model(mut self, model: SceneModel) -> Self {
+        self.model = Some(model);
+        self
+    }
+
+    /// The body with one more material.
+    #[must_use]
+    pub fn with_material(mut self, material: SceneMaterial) -> Self {
+        self.materials.push(material);
+        self
+    }
+
+    /// The body with one more support.
+    #[must_use]
+    pub fn with_support(mut self, support: SceneSupport) -> Self {
+        self.supports.push(support);
+        self
+    }
+
+    /// The body with one more load.
+    #[must_use]
+    pub fn with_load(mut self, load: SceneLoad) -> Self {
+        self.loads.push(load);
+        self
+    }
+
     /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
     /// `folder`.
     pub(super) fn resolve(&self, place: &str, folder: &Path, room: usize) -> Result<Body, Error> {

@@ -85,6 +85,33 @@ impl<'de> Deserialize<'de> for SceneLoad {
 }
 
 impl SceneLoad {
+    /// Pressure on a group of facets, in pascal; positive into the body.
+    #[must_use]
+    pub fn pressure(group: &str, pressure: f64) -> Self {
+        Self::Pressure {
+            pressure,
+            group: group.to_owned(),
+        }
+    }
+
+    /// Force per area on a group of facets, one entry per axis, in pascal.
+    #[must_use]
+    pub fn traction(group: &str, traction: &[f64]) -> Self {
+        Self::Traction {
+            traction: traction.to_vec(),
+            group: group.to_owned(),
+        }
+    }
+
+    /// Force per volume on all cells, one entry per axis, in N/m³.
+    #[must_use]
+    pub fn body_force(body_force: &[f64]) -> Self {
+        Self::BodyForce {
+            body_force: body_force.to_vec(),
+            group: None,
+        }
+    }
+
     /// The load in the terms of mechanics.
     pub(super) fn resolve(&self, place: &str, mesh: &Mesh) -> Result<Load, Error> {
         let of_group = format!("{place}.group");

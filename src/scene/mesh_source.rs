@@ -114,6 +114,24 @@ pub enum SolidCell {
     Tet10,
 }
 
+impl From<Mesh> for MeshSource {
+    fn from(mesh: Mesh) -> Self {
+        Self::Given(mesh)
+    }
+}
+
+impl From<Rectangle> for MeshSource {
+    fn from(rectangle: Rectangle) -> Self {
+        Self::Rectangle { rectangle }
+    }
+}
+
+impl From<BoxMesh> for MeshSource {
+    fn from(solid: BoxMesh) -> Self {
+        Self::Box { solid }
+    }
+}
+
 fn one() -> f64 {
     1.0
 }

@@ -103,8 +103,67 @@ pub struct Mechanics {
 }
 
 impl Scene {
+    /// A scene of bodies and contacts from memory, with default settings and without steps.
+    ///
+    /// ```
+    /// use dpana::body::{CellKind, Mesh};
+    /// use dpana::scene::{
+    ///     SceneBody, SceneContact, SceneMaterial, SceneModel, SceneObstacle, SceneSupport,
+    /// };
+    /// use dpana::{Scene, Status, solve};
+    ///
+    /// # fn main() -> Result<(), dpana::Error> {
+    /// // Two unit squares side by side, as arrays of another program.
+    /// let positions = [0.0, 0.0, 1.0, 0.0, 2.0, 0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 1.0];
+    /// let cells = [0, 1, 4, 3, 1, 2, 5, 4];
+    /// let mesh = Mesh::from_arrays(CellKind::Quad4, &positions, &cells)?
+    ///     .with_surface("bottom", |[_, y, _]| y == 0.0)?
+    ///     .with_surface("top", |[_, y, _]| y == 1.0)?;
+    /// let block = SceneBody::new("block", mesh)
+    ///     .with_model(SceneModel::PlaneStrain)
+    ///     .with_material(SceneMaterial::new(1000.0, 0.0))
+    ///     .with_support(SceneSupport::of("top", &[Some(0.0), Some(-0.01)]));
+    /// let floor = SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0]);
+    /// let scene = Scene::new(vec![block], vec![SceneContact::on(floor, "bottom", 0.3)]);
+    ///
+    /// let solution = solve(&scene)?;
+    /// assert_eq!(solution.status(), Status::Certified);
+    /// // E ε = 10 Pa.
+    /// let report = solution.report()?;
+    /// assert!((report.totals.peak_pressure - 10.0).abs() < 1e-9);
+    /// # Ok(())
+    /// # }
+    /// ```
+    #[must_use]
+    pub fn new(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Self {
+        Self {
+            bodies,
+            contacts,
+            ..Self::default()
+        }
+    }
+
     /// Reads a scene from JSON text; `file` stands for it in messages, and mesh files are
     /// relative to its folder.
+    ///
+    /// ```
+    /// use dpana::{Scene, Status, solve};
+    ///
+    /// # fn main() -> Result<(), dpana::Error> {
+    /// let scene = r#"{
+    ///     "bodies": [{ "mesh": { "rectangle": { "x": [0, 1], "y": [0, 1], "cells": [8, 8] } },
+    ///                  "model": "plane_strain",
+    ///                  "materials": [{ "young": 1000, "poisson": 0.3 }],
+    ///                  "supports": [{ "group": "top", "displacement": [0.002, -0.01] }] }],
+    ///     "contacts": [{ "group": "bottom", "friction": 0.3,
+    ///                    "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }] }"#;
+    /// let solution = solve(&Scene::from_json(scene, "square.json")?)?;
+    /// assert_eq!(solution.status(), Status::Certified);
+    /// let totals = solution.report()?.totals;
+    /// assert_eq!(totals.open + totals.stick + totals.slip, 9);
+    /// # Ok(())
+    /// # }
+    /// ```
     ///
     /// # Errors
     ///

@@ -54,6 +54,15 @@ impl<'de> Deserialize<'de> for SceneSupport {
 }
 
 impl SceneSupport {
+    /// Displacement of the nodes of a group, one entry per axis, in metre; `None` leaves it free.
+    #[must_use]
+    pub fn of(group: &str, displacement: &[Option<f64>]) -> Self {
+        Self::Group {
+            group: group.to_owned(),
+            displacement: displacement.to_vec(),
+        }
+    }
+
     /// The support in the terms of mechanics.
     pub(super) fn resolve(&self, place: String, mesh: &Mesh) -> Result<Support, Error> {
         let (nodes, stated) = match self {

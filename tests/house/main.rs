@@ -10,6 +10,7 @@ mod square;
 mod architecture;
 mod cases;
 mod only_what_a_scene_needs;
+mod picture;
 mod repeatable;
 mod report;
 mod rust_words;
