@@ -47,7 +47,9 @@ pub mod pipeline;
 pub mod problem;
 pub mod report;
 pub mod scene;
+#[cfg(feature = "cli")]
 pub mod study;
+#[cfg(feature = "cli")]
 pub mod verify;
 
 pub use alternation::{Outcome, Settings, Status};
@@ -56,7 +58,9 @@ pub use kkt::{Certificate, Judge};
 pub use pipeline::{Solution, Variation, cases, cases_watched, limit, solve, solve_steps};
 pub use problem::ContactProblem;
 pub use scene::Scene;
+#[cfg(feature = "cli")]
 pub use study::study;
+#[cfg(feature = "cli")]
 pub use verify::verify;
 
 /// The programs of the README, run as tests.

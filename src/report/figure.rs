@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::Table;
-use super::svg::{escaped, line, plain, text};
+use super::svg::{escaped, plain, text};
 use crate::error::Error;
 
 /// Width and height of the drawing.
@@ -364,6 +364,14 @@ fn draw_mark(svg: &mut String, number: usize, [x, y]: [f64; 2], open: bool) {
             y - 4.8
         ),
     };
+}
+
+/// A thin line between two places.
+fn line(svg: &mut String, [x, y, to_x, to_y]: [f64; 4]) {
+    let _ = writeln!(
+        svg,
+        "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"#ddd\"/>"
+    );
 }
 
 /// The second half of the colours is dashed.

@@ -9,24 +9,30 @@ mod certificate;
 mod contacts;
 mod digits;
 mod failure;
+#[cfg(feature = "cli")]
 mod figure;
 mod file;
+#[cfg(feature = "cli")]
 mod hard;
 mod limit;
 mod motion;
 mod notes;
+#[cfg(feature = "cli")]
 mod page;
 mod picture;
 mod quality;
 mod shortfall;
 mod step;
+#[cfg(feature = "cli")]
 mod study;
+#[cfg(feature = "cli")]
 mod study_figures;
 mod summary;
 mod svg;
 mod table;
 mod totals;
 mod trust;
+#[cfg(feature = "cli")]
 mod verification;
 pub mod vtu;
 mod work;
@@ -39,8 +45,10 @@ pub use certificate::{
 };
 pub use contacts::{Contact, ReportedContactState};
 pub use failure::ReportedFailure;
+#[cfg(feature = "cli")]
 pub use figure::{Axis, Curve, Figure, Point, plot};
 pub use file::replace_file;
+#[cfg(feature = "cli")]
 pub use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
 pub use motion::ReportedMotion;
@@ -49,10 +57,12 @@ pub(crate) use picture::Picture;
 pub use quality::Quality;
 pub use shortfall::{Reason, ReportedShortfall};
 pub use step::{ReportedHalving, ReportedLedger, ReportedStep};
+#[cfg(feature = "cli")]
 pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
 pub use totals::{PairTotals, ReportedExchange, Totals};
 pub use trust::{Continuity, Trust, TrustedState};
+#[cfg(feature = "cli")]
 pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
 

@@ -1,14 +1,6 @@
-//! What the drawings share: lines, words and numbers in SVG.
+//! What the drawings share: words and numbers in SVG.
 
 use std::fmt::Write;
-
-/// A thin line between two places.
-pub(super) fn line(svg: &mut String, [x, y, to_x, to_y]: [f64; 4]) {
-    let _ = writeln!(
-        svg,
-        "<path d=\"M{x:.1} {y:.1}L{to_x:.1} {to_y:.1}\" stroke=\"#ddd\"/>"
-    );
-}
 
 /// Words at a place; `anchor` is `start`, `middle` or `end`.
 pub(super) fn text(svg: &mut String, [x, y]: [f64; 2], anchor: &str, words: &str) {

@@ -1,6 +1,5 @@
 //! Contacts: a part of a body's surface, what it may touch, and friction.
 
-use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::selection::{norm, vector};
@@ -10,7 +9,8 @@ use crate::contact::{ContactPair, Obstacle, Opposite};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a contact")]
 pub struct SceneContact {
     /// Group of surface facets; it need only contain the true contact. Its nodes carry the
@@ -23,12 +23,13 @@ pub struct SceneContact {
     /// The other surface that it may touch; this or `obstacle`.
     pub against: Option<SceneSurface>,
     /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
-    #[schemars(range(min = 0))]
+    #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
     pub friction: f64,
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a surface")]
 pub struct SceneSurface {
     /// Name of the body; may be left out while there is only one.
@@ -38,7 +39,8 @@ pub struct SceneSurface {
 }
 
 /// A rigid body, which only `steps` can move; vectors have one entry per axis.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneObstacle {
     /// Half-space behind a plane (a line in 2D).
@@ -53,7 +55,7 @@ pub enum SceneObstacle {
         /// Centre, in metre.
         center: Vec<f64>,
         /// Radius `> 0`, in metre.
-        #[schemars(extend("exclusiveMinimum" = 0))]
+        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         radius: f64,
     },
     /// Infinite circular cylinder, in 3D.
@@ -63,7 +65,7 @@ pub enum SceneObstacle {
         /// Direction of the axis; any length but zero.
         axis: Vec<f64>,
         /// Radius `> 0`, in metre.
-        #[schemars(extend("exclusiveMinimum" = 0))]
+        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         radius: f64,
     },
     /// Sphere, in 3D.
@@ -71,7 +73,7 @@ pub enum SceneObstacle {
         /// Centre, in metre.
         center: Vec<f64>,
         /// Radius `> 0`, in metre.
-        #[schemars(extend("exclusiveMinimum" = 0))]
+        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         radius: f64,
     },
 }

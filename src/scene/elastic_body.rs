@@ -2,7 +2,6 @@
 
 use std::path::Path;
 
-use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{MeshSource, SceneLoad, SceneSupport, selection};
@@ -11,7 +10,8 @@ use crate::body::{Body, Material, Mesh, Model};
 use crate::error::Error;
 
 /// An elastic body.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a body")]
 pub struct SceneBody {
     /// Name for messages and reports.
@@ -22,7 +22,7 @@ pub struct SceneBody {
     /// Plane strain, plane stress or axisymmetric, required in 2D; solid when left out in 3D.
     pub model: Option<SceneModel>,
     /// Its materials; together they cover every cell once.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub materials: Vec<SceneMaterial>,
     /// Where its displacement is given.
     #[serde(default)]
@@ -37,7 +37,8 @@ fn unnamed() -> String {
 }
 
 /// How strain and stress live in the body's dimension.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneModel {
     /// 2D, no strain out of the plane, 1 m deep.
@@ -45,7 +46,7 @@ pub enum SceneModel {
     /// 2D, no stress out of the plane.
     PlaneStress {
         /// Depth of the plate, `> 0`, in metre.
-        #[schemars(extend("exclusiveMinimum" = 0))]
+        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         thickness: f64,
     },
     /// 2D, the section x = r, y = z of a body of revolution about the y axis; all forces are those
@@ -56,16 +57,17 @@ pub enum SceneModel {
 }
 
 /// An isotropic linear elastic material.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with young and poisson")]
 pub struct SceneMaterial {
     /// Group of cells; all cells when left out, which only a single material may do.
     pub group: Option<String>,
     /// Young's modulus `E > 0`, in pascal.
-    #[schemars(extend("exclusiveMinimum" = 0))]
+    #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
     pub young: f64,
     /// Poisson's ratio, `-1 < ν < 0.5`.
-    #[schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5))]
+    #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5)))]
     pub poisson: f64,
 }
 

@@ -1,6 +1,5 @@
 //! Loads: pressure, traction, body force and point force.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de};
 
 use super::selection;
@@ -9,8 +8,9 @@ use crate::body::{Load, Mesh};
 use crate::error::Error;
 
 /// A given force on a body.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(untagged, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
 pub enum SceneLoad {
     /// Force per area along the inward normal.
     Pressure {

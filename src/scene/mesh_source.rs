@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de};
 
 use super::read;
@@ -14,15 +13,16 @@ use crate::mesh_file::gmsh;
 pub(super) const MOST_NODES: usize = 20_000_000;
 
 /// Where a body's mesh comes from.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(untagged, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
 pub enum MeshSource {
     /// A Gmsh file.
     File {
         /// MSH 2.2 or 4.1 ASCII, relative to the scene's folder.
         file: PathBuf,
         /// Factor on all positions, such as 0.001 for a mesh in mm; 1 when left out.
-        #[schemars(default = "one", extend("exclusiveMinimum" = 0))]
+        #[cfg_attr(feature = "cli", schemars(default = "one", extend("exclusiveMinimum" = 0)))]
         scale: f64,
     },
     /// A rectangle of quadrilaterals or triangles.
@@ -33,16 +33,17 @@ pub enum MeshSource {
     /// A box of hexahedra or tetrahedra.
     Box {
         /// Its extent and cells.
-        #[schemars(rename = "box")]
+        #[cfg_attr(feature = "cli", schemars(rename = "box"))]
         solid: BoxMesh,
     },
     /// A mesh that the calling code built.
-    #[schemars(skip)]
+    #[cfg_attr(feature = "cli", schemars(skip))]
     Given(Mesh),
 }
 
 /// A rectangle. Groups: `left`, `right`, `bottom`, `top`, and `body` for all cells.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with x, y and cells")]
 pub struct Rectangle {
     /// Smallest and largest x, in metre.
@@ -61,7 +62,8 @@ pub struct Rectangle {
 
 /// A box. Groups: `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z), and `body`
 /// for all cells.
-#[derive(Clone, Debug, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with x, y, z and cells")]
 pub struct BoxMesh {
     /// Smallest and largest x, in metre.
@@ -81,7 +83,8 @@ pub struct BoxMesh {
 }
 
 /// Cells of a rectangle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum PlaneCell {
     /// Bilinear quadrilaterals.
@@ -98,7 +101,8 @@ pub enum PlaneCell {
 }
 
 /// Cells of a box.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum SolidCell {
     /// Trilinear hexahedra.

@@ -28,7 +28,6 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::alternation::{Settings, Variant};
@@ -48,7 +47,8 @@ pub use support::SceneSupport;
 use mesh_source::MOST_NODES;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
     /// Shown in reports.
@@ -58,10 +58,10 @@ pub struct Scene {
     #[serde(default)]
     pub units: String,
     /// The elastic bodies, all in 2D or all in 3D; names differ.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub bodies: Vec<SceneBody>,
     /// Where the bodies may touch obstacles or each other; at least one.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub contacts: Vec<SceneContact>,
     /// A load history; left out, there is one state under the loads as they stand.
     pub steps: Option<SceneSteps>,
@@ -75,14 +75,15 @@ pub struct Scene {
 }
 
 /// Settings of the solve; left out, the defaults hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object of settings")]
 pub struct SceneSettings {
     /// Largest natural-map residual that counts as solved, from 1e-15 to 1e-2.
-    #[schemars(range(min = 1e-15, max = 1e-2))]
+    #[cfg_attr(feature = "cli", schemars(range(min = 1e-15, max = 1e-2)))]
     pub tolerance: Option<f64>,
     /// Sweeps after which the solve gives up, at least 1.
-    #[schemars(range(min = 1))]
+    #[cfg_attr(feature = "cli", schemars(range(min = 1)))]
     pub max_sweeps: Option<usize>,
     /// Which outer loop runs; for study, from code only.
     #[serde(skip)]
@@ -288,6 +289,7 @@ impl SceneSettings {
 }
 
 /// The JSON Schema of a scene, from the types that read it.
+#[cfg(feature = "cli")]
 #[must_use]
 pub fn schema() -> serde_json::Value {
     schemars::schema_for!(Scene).to_value()

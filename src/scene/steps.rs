@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::spelling;
@@ -17,14 +16,15 @@ use crate::error::{Error, check_finite};
 ///
 /// Tables are linear between their rows and constant before the first and after the last.
 /// A load or support without a table acts in full at every instant.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
     expecting = "an object with at, and factors or obstacles"
 )]
 pub struct SceneSteps {
     /// Instants at which a state is solved, rising; any parameter of the history will do.
-    #[schemars(length(min = 1))]
+    #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub at: Vec<f64>,
     /// By what a load or a support is multiplied: rows `[instant, factor]`, rising, under its
     /// place, such as `bodies[0].loads[1]` or `bodies[0].supports[0]`.
@@ -42,7 +42,7 @@ pub struct SceneSteps {
     /// dissipated energy by at most this part of the work, and the state of contacts on at most this
     /// part of the area of contact; or until there are 128 parts, with a note. The first step is
     /// not halved: nothing is stated of the way to it.
-    #[schemars(range(min = 1e-12, max = 1))]
+    #[cfg_attr(feature = "cli", schemars(range(min = 1e-12, max = 1)))]
     pub resolve: Option<f64>,
 }
 

@@ -1,6 +1,5 @@
 //! Supports: nodes whose displacement is given, component by component.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Deserializer, de};
 
 use super::selection;
@@ -8,8 +7,9 @@ use crate::body::{Mesh, Support};
 use crate::error::{Error, check_length};
 
 /// Nodes whose displacement is given; `null` leaves a component free.
-#[derive(Clone, Debug, PartialEq, JsonSchema)]
-#[schemars(untagged, deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
 pub enum SceneSupport {
     /// All nodes of a group.
     Group {
