@@ -63,6 +63,9 @@ pub use study::study;
 #[cfg(feature = "cli")]
 pub use verify::verify;
 
+/// Dense matrices: what an operator and free modes are made of.
+pub use faer;
+
 /// The programs of the README, run as tests.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

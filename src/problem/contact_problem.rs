@@ -25,6 +25,28 @@ use crate::error::{Error, check_finite, check_length};
 /// Contact `i` owns a block of `1 + tangents[i]` unknowns, normal first; blocks stand
 /// one after the other. A contact without friction has no tangent. The free
 /// displacement is positive towards the other side, reactions are `≤ 0` pressed.
+///
+/// ```
+/// use dpana::alternation::{Settings, solve};
+/// use dpana::faer::mat;
+/// use dpana::problem::Operator;
+/// use dpana::{ContactProblem, Status};
+///
+/// # fn main() -> Result<(), dpana::Error> {
+/// // One contact with one tangent, μ = 1/2: it slips by 0.5 m under −0.25 N of friction.
+/// let operator = Operator::from_compliance(mat![[1.0, -1.0], [-1.0, 2.0]])?;
+/// let problem = ContactProblem::new(&[1], vec![0.5], vec![0.0], vec![0.25, 0.5], operator)?;
+/// let outcome = solve(&problem, &Settings::default())?;
+/// assert_eq!(outcome.status, Status::Certified);
+/// assert!((outcome.reaction[0] + 0.5).abs() < 1e-12); // t_N
+/// assert!((outcome.reaction[1] + 0.25).abs() < 1e-12); // t_T
+/// assert!((outcome.verdict.displacement[1] - 0.5).abs() < 1e-12); // u_T
+/// # Ok(())
+/// # }
+/// ```
+///
+/// [`step`](Self::step) is the same problem under another load, for friction on the slip since a state;
+/// it shares the operator, and [`solve_from`](crate::alternation::solve_from) starts it from there.
 #[derive(Clone, Debug)]
 pub struct ContactProblem {
     friction: Vec<f64>,
