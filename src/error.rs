@@ -410,7 +410,7 @@ pub enum Error {
         reason: String,
     },
 
-    /// A mesh file cannot be read as a mesh.
+    /// A mesh file cannot be read as a mesh, or a deck as a scene.
     #[error("{file}:{line}: {reason}")]
     Mesh {
         /// File name.

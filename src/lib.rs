@@ -16,7 +16,7 @@
 //!
 //! | stage | module | what it makes |
 //! |---|---|---|
-//! | scene | [`scene`] | bodies and contact pairs from JSON or code |
+//! | scene | [`scene`], [`mod@deck`] | bodies and contact pairs from JSON, code or an Abaqus deck |
 //! | mechanics | [`body`], [`mesh_file`] | mesh, stiffness and load of a body |
 //! | contact surface | [`contact`] | contacts: frames, gaps, the nodes of either side |
 //! | condensation | [`condensation`] | compliance G and free displacement û, seen from the contacts |
@@ -39,6 +39,7 @@ pub mod closed_forms;
 pub mod condensation;
 pub mod cone;
 pub mod contact;
+pub mod deck;
 pub mod error;
 pub mod kkt;
 pub mod limit;

@@ -7,10 +7,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::Variation;
-use dpana::scene::Scene;
 
 use super::outputs::{check_output, write_table};
 use super::progress::Progress;
+use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Cases {
@@ -32,7 +32,7 @@ pub(crate) fn cases(arguments: &Cases) -> Result<ExitCode, Box<dyn Error>> {
     let variations = arguments.vary.iter().map(|text| variation(text));
     let variations: Vec<Variation> = variations.collect::<Result<_, _>>()?;
     let progress = Progress::new();
-    let scene = Scene::from_file(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene)?;
     let table = dpana::cases_watched(&scene, &variations, |done, all| {
         progress.show(&format!("{done} of {all} cases"));
     })?;

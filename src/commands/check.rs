@@ -5,18 +5,18 @@ use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use super::scene_file::read_scene;
 use clap::Args;
 use dpana::body;
-use dpana::scene::Scene;
 
 #[derive(Args)]
 pub(crate) struct Check {
-    /// Scene in JSON.
+    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
 }
 
 pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
-    let scene = Scene::from_file(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene)?;
     let mechanics = scene.mechanics()?;
     let mut out = io::stdout().lock();
     for body in &mechanics.bodies {

@@ -7,13 +7,13 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::report::replace_file;
-use dpana::scene::Scene;
 
 use super::outputs::check_output;
+use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Limit {
-    /// Scene in JSON.
+    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
     /// Write the limits to this file, in JSON.
     #[arg(long, value_name = "FILE")]
@@ -24,7 +24,7 @@ pub(crate) fn limit(arguments: &Limit) -> Result<ExitCode, Box<dyn Error>> {
     if let Some(output) = &arguments.report {
         check_output("--report", output, &arguments.scene)?;
     }
-    let limits = dpana::limit(&Scene::from_file(&arguments.scene)?)?;
+    let limits = dpana::limit(&read_scene(&arguments.scene)?)?;
     if let Some(path) = &arguments.report {
         replace_file(path, &limits.to_json())?;
     }

@@ -5,6 +5,7 @@ mod check;
 mod limit;
 mod outputs;
 mod progress;
+mod scene_file;
 mod schema;
 mod solve;
 mod study;

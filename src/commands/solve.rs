@@ -13,10 +13,11 @@ use dpana::{Solution, Status};
 
 use super::outputs::{check_output, write_table};
 use super::progress::Progress;
+use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Solve {
-    /// Scene in JSON.
+    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
     /// Write the whole report to this file, in JSON.
     #[arg(long, value_name = "FILE")]
@@ -72,7 +73,7 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
             format!("--axes {axes}: no comma; expected two columns, such as `at,normal`")
         })?),
     };
-    let scene = Scene::from_file(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene)?;
     check_drawable(arguments, &scene)?;
     let from = match &arguments.restart {
         None => None,

@@ -8,14 +8,14 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::report::replace_file;
-use dpana::scene::Scene;
 use dpana::study::{self, Plan};
 
 use super::progress::Progress;
+use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Study {
-    /// Scene in JSON, without load steps.
+    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`), without load steps.
     scene: PathBuf,
     /// Write page, tables and figures into this folder, which is made if it is not there:
     /// `index.html`, `study.json`, `meshes.csv`, `loops.csv` and the figures in SVG.
@@ -51,7 +51,7 @@ pub(crate) struct Study {
 
 pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     let plan = plan(arguments)?;
-    let scene = Scene::from_file(&arguments.scene)?;
+    let scene = read_scene(&arguments.scene)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("--out {}: {error}", arguments.out.display()))?;
     let progress = Progress::new();

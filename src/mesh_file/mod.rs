@@ -3,5 +3,7 @@
 //! | format | file |
 //! |---|---|
 //! | Gmsh 2.2 and 4.1, ASCII | `gmsh` |
+//! | Abaqus and CalculiX decks | `abaqus` |
 
+pub(crate) mod abaqus;
 pub mod gmsh;

@@ -296,7 +296,7 @@ pub fn schema() -> serde_json::Value {
 }
 
 /// Reads a whole file. Folders and pipes are refused: a pipe could hold the program forever.
-fn read(place: &str, path: &Path) -> Result<Vec<u8>, Error> {
+pub(crate) fn read(place: &str, path: &Path) -> Result<Vec<u8>, Error> {
     let regular = std::fs::metadata(path).and_then(|found| match found.is_file() {
         true => std::fs::read(path),
         false => Err(std::io::Error::other("not a regular file")),

@@ -10,6 +10,7 @@ mod bad_input;
 mod bad_pairs;
 mod command_line;
 mod damaged_mesh;
+mod decks;
 mod hostile_input;
 mod shipped_scenes;
 mod unsolvable_scenes;

@@ -1,0 +1,270 @@
+//! Steps: what every load and support is at every instant that is solved.
+//!
+//! ```text
+//! no amplitude    from its value at the end of the step before to the stated one, linearly
+//! amplitude a     stated value · a(t)
+//! ```
+//!
+//! Instants are the ends of steps and, inside them, the times of the amplitudes in use. Loads that a
+//! step does not state persist, unless it says OP=NEW; then they end.
+
+use std::collections::BTreeMap;
+
+use super::amplitude::{Amplitude, Amplitudes};
+use super::load::{Reader, Slot};
+use super::statement::{Notes, Stated, Statement, Step};
+use crate::error::Error;
+use crate::mesh_file::abaqus::Card;
+
+/// Instants, and what every load and support is at each.
+#[derive(Debug, Default)]
+pub(super) struct History {
+    /// Rising times.
+    pub(super) instants: Vec<f64>,
+    /// Values at the instants.
+    pub(super) values: BTreeMap<Slot, Vec<f64>>,
+}
+
+/// A load or a support as a step leaves it.
+#[derive(Clone, Debug)]
+struct Entry<'m> {
+    stated: f64,
+    amplitude: Option<&'m Amplitude>,
+    /// Whether it is there at once and does not grow over the step.
+    at_once: bool,
+    /// Its value when the step begins.
+    start: f64,
+    /// Number of the step that stated it last.
+    step: usize,
+}
+
+/// The families of keywords that an OP=NEW ends.
+const FAMILIES: [&[&str]; 3] = [&["BOUNDARY"], &["CLOAD"], &["DLOAD", "DSLOAD"]];
+
+fn family(slot: Slot) -> usize {
+    match slot {
+        Slot::Held(..) => 0,
+        Slot::Force(..) => 1,
+        Slot::Pressure(_) | Slot::Weight(..) => 2,
+    }
+}
+
+/// The history while it is read.
+struct Walk<'m, 'r> {
+    reader: Reader<'r>,
+    amplitudes: &'m Amplitudes,
+    entries: BTreeMap<Slot, Entry<'m>>,
+    history: History,
+    time: f64,
+}
+
+impl History {
+    /// Goes through the steps.
+    pub(super) fn new(
+        statement: &Statement<'_, '_>,
+        amplitudes: &Amplitudes,
+        reader: Reader<'_>,
+        notes: &mut Notes,
+    ) -> Result<Self, Error> {
+        let mut walk = Walk {
+            reader,
+            amplitudes,
+            entries: BTreeMap::new(),
+            history: Self::default(),
+            time: 0.0,
+        };
+        let supports = statement.model.iter();
+        for &stated in supports.filter(|(_, card)| card.name == "BOUNDARY") {
+            walk.apply(stated, 0, false, notes)?;
+        }
+        for (number, step) in (1..).zip(&statement.steps) {
+            walk.step(number, step, notes)?;
+        }
+        Ok(walk.history)
+    }
+}
+
+impl<'m> Walk<'m, '_> {
+    fn step(&mut self, number: usize, step: &Step<'_, '_>, notes: &mut Notes) -> Result<(), Error> {
+        let period = period(step.procedure, notes)?;
+        let end = self.time + period;
+        if end <= self.time {
+            return Err(step
+                .procedure
+                .error(format!("period {period}; expected one above 0")));
+        }
+        step.card.one_of("AMPLITUDE", &["STEP", "RAMP"])?;
+        let at_once = step.card.get("AMPLITUDE") == Some("STEP");
+        let held = self
+            .entries
+            .keys()
+            .filter(|slot| family(**slot) == 0)
+            .count();
+        self.end_families(step)?;
+        for &stated in &step.cards {
+            if stated.1.name != "TEMPERATURE" {
+                self.apply(stated, number, at_once, notes)?;
+            } else if self.reader.materials.expansion {
+                return Err(stated.1.error("is not read: thermal expansion"));
+            }
+        }
+        self.check_supports(number, step, held)?;
+        for time in self.instants(number, end) {
+            self.record(number, time, period);
+        }
+        for entry in self.entries.values_mut() {
+            entry.start = value(entry, number, end, self.time, period);
+        }
+        self.time = end;
+        Ok(())
+    }
+
+    /// What OP=NEW ends: it falls to nothing, if the step does not state it again.
+    fn end_families(&mut self, step: &Step<'_, '_>) -> Result<(), Error> {
+        for (at, keywords) in FAMILIES.iter().enumerate() {
+            let of_family = |card: &Card<'_>| keywords.contains(&card.name.as_str());
+            let mut cards = step.cards.iter().map(|(_, card)| card);
+            if !cards.any(|card| of_family(card) && card.get("OP") == Some("NEW")) {
+                continue;
+            }
+            for (_, entry) in self
+                .entries
+                .iter_mut()
+                .filter(|(slot, _)| family(**slot) == at)
+            {
+                entry.stated = if at == 0 { f64::NAN } else { 0.0 };
+                entry.amplitude = None;
+            }
+        }
+        Ok(())
+    }
+
+    fn apply(
+        &mut self,
+        stated: Stated<'_, '_>,
+        step: usize,
+        at_once: bool,
+        notes: &mut Notes,
+    ) -> Result<(), Error> {
+        let card = stated.1;
+        let amplitude = match card.get("AMPLITUDE") {
+            None => None,
+            Some(name) => {
+                let unknown = || card.error(format!("amplitude `{name}` is not known"));
+                Some(self.amplitudes.get(name).ok_or_else(unknown)?)
+            }
+        };
+        for (slot, given) in self.reader.read(stated, notes)? {
+            let entry = self.entries.entry(slot).or_insert(Entry {
+                stated: 0.0,
+                amplitude,
+                at_once,
+                start: 0.0,
+                step: usize::MAX,
+            });
+            let again = entry.step == step;
+            let other =
+                entry.amplitude != amplitude || (family(slot) == 0 && entry.stated != given);
+            if again && other {
+                return Err(card.error("one node or face with two values in one step"));
+            }
+            // Loads of one step add up; supports say the same twice.
+            entry.stated = if again && family(slot) > 0 {
+                entry.stated + given
+            } else {
+                given
+            };
+            (entry.amplitude, entry.at_once, entry.step) = (amplitude, at_once, step);
+        }
+        Ok(())
+    }
+
+    /// Supports stand at every instant: none begins or ends on the way.
+    fn check_supports(
+        &self,
+        number: usize,
+        step: &Step<'_, '_>,
+        before: usize,
+    ) -> Result<(), Error> {
+        let supports = self.entries.iter().filter(|(slot, _)| family(**slot) == 0);
+        let now = supports.clone().count();
+        let boundary = step.cards.iter().find(|(_, card)| card.name == "BOUNDARY");
+        let card = boundary.map_or(step.card, |(_, card)| card);
+        if supports.clone().any(|(_, entry)| entry.stated.is_nan()) {
+            return Err(card.error("`OP=NEW` frees what was held; supports must stay in all steps"));
+        }
+        match number > 1 && now > before {
+            true => {
+                Err(card.error("holds what was free before; supports must be there in all steps"))
+            }
+            false => Ok(()),
+        }
+    }
+
+    /// Instants of a step: its end, and the times of amplitudes before it.
+    fn instants(&self, number: usize, end: f64) -> Vec<f64> {
+        let mut instants = vec![end];
+        for entry in self.entries.values() {
+            let Some(amplitude) = entry.amplitude else {
+                continue;
+            };
+            let start = if amplitude.total { 0.0 } else { self.time };
+            if amplitude.total || entry.step.max(1) == number {
+                let inside = amplitude.times(self.time - start, end - start);
+                instants.extend(inside.map(|time| time + start));
+                instants.sort_by(f64::total_cmp);
+                instants.dedup();
+            }
+        }
+        instants
+    }
+
+    fn record(&mut self, number: usize, time: f64, period: f64) {
+        let before = self.history.instants.len();
+        self.history.instants.push(time);
+        for (&slot, entry) in &self.entries {
+            let values = self.history.values.entry(slot);
+            let values = values.or_insert_with(|| vec![0.0; before]);
+            values.push(value(entry, number, time, self.time, period));
+        }
+    }
+}
+
+/// The value of a load in a step that begins at `begin`.
+fn value(entry: &Entry<'_>, number: usize, time: f64, begin: f64, period: f64) -> f64 {
+    match entry.amplitude {
+        Some(amplitude) if amplitude.total => entry.stated * amplitude.at(time),
+        Some(amplitude) if entry.step.max(1) == number => entry.stated * amplitude.at(time - begin),
+        // In time of the step that stated it, which is over.
+        Some(_) => entry.start,
+        None if entry.at_once => entry.stated,
+        // Exact at the end of the step.
+        None if time >= begin + period => entry.stated,
+        None => entry.start + (time - begin) / period * (entry.stated - entry.start),
+    }
+}
+
+/// The duration of a static step.
+fn period(card: &Card<'_>, notes: &mut Notes) -> Result<f64, Error> {
+    card.only(&[
+        "DIRECT",
+        "SOLVER",
+        "NLGEOM",
+        "STABILIZE",
+        "ALLSDTOL",
+        "CONTINUE",
+        "FACTOR",
+    ])?;
+    if card.get("STABILIZE").is_some() {
+        notes.add(card, "`STABILIZE` is not needed here");
+    }
+    let Some(row) = card.rows.first() else {
+        return Ok(1.0);
+    };
+    card.number(row, 0, "an increment", Some(1.0))?;
+    notes.add(
+        card,
+        "increments are not needed here: one state per step and time of an amplitude",
+    );
+    card.number(row, 1, "a period", Some(1.0))
+}

@@ -1,0 +1,278 @@
+//! What the cards of a deck are about: the model, its steps, or nothing that is needed here.
+//!
+//! A keyword that changes the mechanics is read in a file of this folder or refused by name and
+//! line. What steers a numerical method or asks for output is noted and left.
+
+use std::collections::BTreeSet;
+
+use crate::error::Error;
+use crate::mesh_file::abaqus::{Card, Flat, KEYWORDS};
+
+/// Keywords that state the model.
+const MODEL: [&str; 10] = [
+    "MATERIAL",
+    "ELASTIC",
+    "DENSITY",
+    "EXPANSION",
+    "SOLIDSECTION",
+    "SURFACEINTERACTION",
+    "SURFACEBEHAVIOR",
+    "FRICTION",
+    "CONTACTPAIR",
+    "BOUNDARY",
+];
+
+/// Keywords that state a step.
+const STEP: [&str; 5] = ["BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"];
+
+/// Keywords that ask for output.
+const OUTPUT: [&str; 25] = [
+    "HEADING",
+    "NODEFILE",
+    "NODEPRINT",
+    "NODEOUTPUT",
+    "ELFILE",
+    "ELPRINT",
+    "ELEMENTOUTPUT",
+    "CONTACTFILE",
+    "CONTACTPRINT",
+    "CONTACTOUTPUT",
+    "ENERGYFILE",
+    "ENERGYPRINT",
+    "ENERGYOUTPUT",
+    "SECTIONPRINT",
+    "SECTIONFILE",
+    "OUTPUT",
+    "RESTART",
+    "PREPRINT",
+    "PRINT",
+    "FILEFORMAT",
+    "FILEOUTPUT",
+    "MONITOR",
+    "TIMEPOINTS",
+    "FILTER",
+    "NODALTHICKNESS",
+];
+
+/// Keywords that steer a numerical method, or state what elastic bodies at rest do not feel.
+const NUMERICS: [&str; 12] = [
+    "CONTROLS",
+    "CONTACTCONTROLS",
+    "CONTACTDAMPING",
+    "SECTIONCONTROLS",
+    "SOLUTIONTECHNIQUE",
+    "CONDUCTIVITY",
+    "SPECIFICHEAT",
+    "GAPCONDUCTANCE",
+    "DAMPING",
+    "PHYSICALCONSTANTS",
+    "INITIALCONDITIONS",
+    "ORIENTATION",
+];
+
+/// Keywords that are refused, and what they are.
+const REFUSED: [(&str, &str); 37] = [
+    ("DYNAMIC", "motion with inertia"),
+    ("HEATTRANSFER", "temperature as an unknown"),
+    (
+        "COUPLEDTEMPERATUREDISPLACEMENT",
+        "temperature as an unknown",
+    ),
+    (
+        "COUPLEDTEMPERATURE-DISPLACEMENT",
+        "temperature as an unknown",
+    ),
+    (
+        "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
+        "temperature as an unknown",
+    ),
+    ("BUCKLE", "buckling"),
+    ("VISCO", "creep"),
+    ("SHELLSECTION", "shells"),
+    ("SHELLGENERALSECTION", "shells"),
+    ("BEAMSECTION", "beams"),
+    ("BEAMGENERALSECTION", "beams"),
+    ("MEMBRANESECTION", "membranes"),
+    ("TIE", "surfaces glued together"),
+    ("EQUATION", "equations between displacements"),
+    ("MPC", "equations between displacements"),
+    ("RIGIDBODY", "nodes that move as one rigid body"),
+    ("COUPLING", "a surface coupled to a node"),
+    ("KINEMATIC", "a surface coupled to a node"),
+    ("DISTRIBUTING", "a surface coupled to a node"),
+    ("DISTRIBUTINGCOUPLING", "a surface coupled to a node"),
+    ("PRE-TENSIONSECTION", "preloaded bolts"),
+    ("MODELCHANGE", "contacts or elements that come and go"),
+    ("GAP", "gap elements"),
+    ("CLEARANCE", "a gap stated apart from the mesh"),
+    (
+        "CONTACTINTERFERENCE",
+        "an overlap stated apart from the mesh",
+    ),
+    ("CONTACT", "contact of all with all; state *CONTACT PAIR"),
+    ("SPRING", "springs"),
+    ("TRANSFORM", "directions of a node's own"),
+    ("PLASTIC", "plasticity"),
+    ("HYPERELASTIC", "large strain"),
+    ("CREEP", "creep"),
+    ("USERMATERIAL", "a material of the user's"),
+    ("CYCLICSYMMETRYMODEL", "cyclic symmetry"),
+    ("CHANGEFRICTION", "friction that changes"),
+    ("CHANGESURFACEBEHAVIOR", "a law of contact that changes"),
+    ("CHANGECONTACTTYPE", "a law of contact that changes"),
+    ("SYSTEM", "coordinates of a system of their own"),
+];
+
+/// A card and its scope.
+pub(super) type Stated<'a, 'c> = (usize, &'c Card<'a>);
+
+/// A static step.
+pub(super) struct Step<'a, 'c> {
+    /// `*STEP`.
+    pub(super) card: &'c Card<'a>,
+    /// `*STATIC`.
+    pub(super) procedure: &'c Card<'a>,
+    /// What changes in it.
+    pub(super) cards: Vec<Stated<'a, 'c>>,
+}
+
+/// The cards of a deck, told apart.
+#[derive(Default)]
+pub(super) struct Statement<'a, 'c> {
+    /// Of the model, and `*AMPLITUDE` wherever it stands.
+    pub(super) model: Vec<Stated<'a, 'c>>,
+    /// Static steps.
+    pub(super) steps: Vec<Step<'a, 'c>>,
+}
+
+/// What was read and left, in words, each once.
+#[derive(Default)]
+pub(super) struct Notes {
+    pub(super) lines: Vec<String>,
+    said: BTreeSet<String>,
+}
+
+impl Notes {
+    /// Notes something of a keyword, once.
+    pub(super) fn add(&mut self, card: &Card<'_>, words: &str) {
+        if self.said.insert(format!("{} {words}", card.shown)) {
+            self.lines.push(format!("{} {words}", card.place()));
+        }
+    }
+}
+
+impl<'a, 'c> Statement<'a, 'c> {
+    /// Tells the cards apart.
+    pub(super) fn new(flat: &Flat<'a, 'c>, notes: &mut Notes) -> Result<Self, Error> {
+        let (mut statement, mut at) = (Self::default(), 0);
+        while let Some(&(scope, card)) = flat.cards.get(at) {
+            at += 1;
+            if card.name == "STEP" {
+                let ends =
+                    |(_, card): &Stated<'_, '_>| ["STEP", "ENDSTEP"].contains(&card.name.as_str());
+                let length = flat.cards[at..].iter().position(ends);
+                let length = length.filter(|length| flat.cards[at + length].1.name == "ENDSTEP");
+                let open = || card.error("a step that is not ended; expected *END STEP");
+                let length = length.ok_or_else(open)?;
+                statement.add_step(card, &flat.cards[at..at + length], notes)?;
+                at += length + 1;
+            } else if MODEL.contains(&card.name.as_str()) || card.name == "AMPLITUDE" {
+                statement.model.push((scope, card));
+            } else {
+                leave(card, notes, "before the first step")?;
+            }
+        }
+        match (statement.steps.is_empty(), flat.cards.last()) {
+            (true, Some((_, last))) => {
+                Err(last.error("the deck ends; expected a *STEP with *STATIC"))
+            }
+            (true, None) => Err(Error::Empty {
+                place: "deck".to_owned(),
+            }),
+            _ => Ok(statement),
+        }
+    }
+
+    /// What the model lacks before the first step.
+    pub(super) fn missing(&self, what: impl std::fmt::Display) -> Error {
+        match self.steps.first() {
+            Some(step) => step
+                .card
+                .error(format!("begins; expected a {what} before it")),
+            None => Error::Empty {
+                place: what.to_string(),
+            },
+        }
+    }
+
+    fn add_step(
+        &mut self,
+        card: &'c Card<'a>,
+        inside: &[Stated<'a, 'c>],
+        notes: &mut Notes,
+    ) -> Result<(), Error> {
+        card.only(&[
+            "NLGEOM",
+            "INC",
+            "NAME",
+            "PERTURBATION",
+            "AMPLITUDE",
+            "UNSYMM",
+            "EXTRAPOLATION",
+        ])?;
+        if let Some((_, frequency)) = inside.iter().find(|(_, card)| card.name == "FREQUENCY") {
+            notes.add(
+                frequency,
+                "vibrations are not computed: the step is left out",
+            );
+            return Ok(());
+        }
+        if card.get("PERTURBATION").is_some() {
+            return Err(card.error("`PERTURBATION` is not read: steps start from the loads before"));
+        }
+        if card.get("NLGEOM").is_some_and(|value| value != "NO") {
+            notes.add(card, "`NLGEOM`: displacements count as small here");
+        }
+        let (mut procedure, mut cards) = (None, Vec::new());
+        for &(scope, inner) in inside {
+            match inner.name.as_str() {
+                "STATIC" => procedure = Some(inner),
+                "AMPLITUDE" => self.model.push((scope, inner)),
+                name if STEP.contains(&name) => cards.push((scope, inner)),
+                name if MODEL.contains(&name) => {
+                    return Err(inner.error("inside a step; expected it before the first one"));
+                }
+                _ => leave(inner, notes, "in a step")?,
+            }
+        }
+        let missing = || card.error("a step without *STATIC; expected one");
+        self.steps.push(Step {
+            card,
+            procedure: procedure.ok_or_else(missing)?,
+            cards,
+        });
+        Ok(())
+    }
+}
+
+/// Notes a keyword that is not needed, and refuses all others that are not read.
+fn leave(card: &Card<'_>, notes: &mut Notes, place: &str) -> Result<(), Error> {
+    let name = card.name.as_str();
+    if KEYWORDS.contains(&name) || name == "HEADING" {
+        return Ok(());
+    }
+    if name == "INITIALCONDITIONS" {
+        card.one_of("TYPE", &["TEMPERATURE"])?;
+    }
+    if OUTPUT.contains(&name) || NUMERICS.contains(&name) {
+        notes.add(card, "is not needed here");
+        return Ok(());
+    }
+    if let Some((_, what)) = REFUSED.iter().find(|(refused, _)| *refused == name) {
+        return Err(card.error(format!("is not read: {what}")));
+    }
+    match STEP.contains(&name) || ["STATIC", "ENDSTEP", "FREQUENCY"].contains(&name) {
+        true => Err(card.error(format!("{place}; expected it in a step"))),
+        false => Err(card.error(format!("an unknown keyword {place}"))),
+    }
+}

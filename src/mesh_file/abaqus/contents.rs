@@ -1,0 +1,337 @@
+//! Nodes, elements, sets and surfaces of a deck.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::ops::Range;
+
+use super::card::{Card, bare, fields, quote};
+use super::directory::Directory;
+use super::element::ElementKind;
+use super::instance::Flat;
+use crate::error::Error;
+
+/// An element: its nodes in the order of its cell.
+#[derive(Clone, Debug)]
+pub(crate) struct Element {
+    /// Kind.
+    pub(crate) kind: ElementKind,
+    /// Indices of nodes.
+    pub(crate) nodes: Vec<usize>,
+    /// Its number in the deck.
+    pub(crate) label: u64,
+}
+
+/// An element and the number of its face, from 1.
+pub(crate) type Side = (usize, usize);
+
+/// What a deck says of its meshes.
+#[derive(Debug)]
+pub(crate) struct Contents {
+    /// Positions of the nodes.
+    pub(crate) positions: Vec<[f64; 3]>,
+    /// Numbers and sets of nodes.
+    pub(crate) nodes: Directory,
+    /// The elements.
+    pub(crate) elements: Vec<Element>,
+    /// Numbers and sets of elements.
+    pub(crate) cells: Directory,
+    /// Outer faces of the surfaces, by full name.
+    pub(crate) surfaces: BTreeMap<String, BTreeSet<Side>>,
+}
+
+/// Keywords that are read here.
+pub(crate) const KEYWORDS: [&str; 5] = ["NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
+
+impl Contents {
+    /// Reads the cards of meshes, wherever they stand among the others.
+    pub(crate) fn new(flat: &Flat<'_, '_>) -> Result<Self, Error> {
+        let mut contents = Self {
+            positions: Vec::new(),
+            nodes: Directory::new("node", &flat.scopes),
+            elements: Vec::new(),
+            cells: Directory::new("element", &flat.scopes),
+            surfaces: BTreeMap::new(),
+        };
+        let of = |name: &'static str| {
+            let cards = flat.cards.iter().enumerate();
+            cards.filter(move |(_, (_, card))| card.name == name)
+        };
+        for (_, &(scope, card)) in of("NODE") {
+            contents.read_nodes(scope, card)?;
+        }
+        let mut added = HashMap::new();
+        for (at, &(scope, card)) in of("ELEMENT") {
+            added.insert(at, contents.read_elements(scope, card)?);
+        }
+        // Sets are made of sets before them.
+        for (at, &(scope, card)) in flat.cards.iter().enumerate() {
+            contents.read_sets(scope, card, added.get(&at).cloned().unwrap_or_default())?;
+        }
+        let mut outer = None;
+        for (_, &(scope, card)) in of("SURFACE") {
+            let outer = outer.get_or_insert_with(|| contents.outer_sides());
+            let sides = contents.read_surface(scope, card, outer)?;
+            let name = contents.cells.full(scope, card.need("NAME")?);
+            if contents.surfaces.insert(name, sides).is_some() {
+                return Err(card.error("a surface of this name stands before"));
+            }
+        }
+        Ok(contents)
+    }
+
+    fn read_nodes(&mut self, scope: usize, card: &Card<'_>) -> Result<(), Error> {
+        card.only(&["NSET", "SYSTEM"])?;
+        card.one_of("SYSTEM", &["R"])?;
+        for row in &card.rows {
+            let mut words = fields(row);
+            let label = card.label(row, words.next().unwrap_or_default(), "number of a node")?;
+            let mut position = [0.0; 3];
+            for coordinate in &mut position {
+                match words.next() {
+                    None | Some("") => {}
+                    Some(word) => *coordinate = card.number_of(row, word, "a coordinate")?,
+                }
+            }
+            if words.next().is_some() {
+                return Err(card.at(
+                    row,
+                    "one word too many; expected a number and 3 coordinates",
+                ));
+            }
+            let position = self.nodes.scope(scope).place(position);
+            match self.nodes.number(scope, label, self.positions.len()) {
+                None => self.positions.push(position),
+                Some(before) if self.positions[before] == position => {
+                    self.nodes.number(scope, label, before);
+                }
+                Some(_) => return Err(card.at(row, format!("node {label} is listed twice"))),
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads elements, whose rows may go on over several lines; returns which they are.
+    fn read_elements(&mut self, scope: usize, card: &Card<'_>) -> Result<Range<usize>, Error> {
+        card.only(&["TYPE", "ELSET"])?;
+        let kind = ElementKind::new(card.need("TYPE")?).map_err(|reason| card.error(reason))?;
+        let (start, count) = (self.elements.len(), 1 + kind.cell.node_count());
+        let mut numbers: Vec<u64> = Vec::with_capacity(count);
+        for (at, row) in card.rows.iter().enumerate() {
+            for word in fields(row) {
+                numbers.push(card.label(row, word, "number of an element or a node")?);
+            }
+            let last = at + 1 == card.rows.len();
+            if numbers.len() > count || (last && numbers.len() < count) {
+                let (label, found) = (numbers[0], numbers.len() - 1);
+                return Err(card.at(
+                    row,
+                    format!(
+                        "element {label} has {found} nodes; expected {} of {}",
+                        count - 1,
+                        card.need("TYPE")?
+                    ),
+                ));
+            }
+            if numbers.len() == count {
+                let unknown = |reason: String| card.at(row, reason);
+                let element = self.element(scope, kind, &numbers).map_err(unknown)?;
+                self.elements.push(element);
+                numbers.clear();
+            }
+        }
+        Ok(start..self.elements.len())
+    }
+
+    /// An element of its own number and those of its nodes.
+    fn element(
+        &mut self,
+        scope: usize,
+        kind: ElementKind,
+        numbers: &[u64],
+    ) -> Result<Element, String> {
+        let label = numbers[0];
+        let node = |&number: &u64| {
+            let found = self.nodes.index(scope, number);
+            found.ok_or_else(|| format!("element {label}: node {number} is not in the deck"))
+        };
+        let nodes = numbers[1..]
+            .iter()
+            .map(node)
+            .collect::<Result<Vec<_>, _>>()?;
+        let raised = |node: &&usize| self.positions[**node][2] != 0.0;
+        if let (2, Some(&node)) = (kind.cell.dimension(), nodes.iter().find(raised)) {
+            let z = self.positions[node][2];
+            return Err(format!(
+                "plane element {label} has a node at z = {z}; expected 0"
+            ));
+        }
+        let before = self.cells.number(scope, label, self.elements.len());
+        match before {
+            None => Ok(Element {
+                kind,
+                nodes: kind.cell_nodes(&nodes),
+                label,
+            }),
+            Some(_) => Err(format!("element {label} is listed twice")),
+        }
+    }
+
+    /// What a card adds to sets; `added` are the elements that it stated.
+    fn read_sets(
+        &mut self,
+        scope: usize,
+        card: &Card<'_>,
+        added: Range<usize>,
+    ) -> Result<(), Error> {
+        match card.name.as_str() {
+            "NODE" => {
+                let Some(set) = card.get("NSET") else {
+                    return Ok(());
+                };
+                let mut nodes = Vec::with_capacity(card.rows.len());
+                for row in &card.rows {
+                    let word = fields(row).next().unwrap_or_default();
+                    nodes.extend(self.nodes.members(scope, (card, row), word)?);
+                }
+                self.nodes.add(scope, set, nodes);
+                Ok(())
+            }
+            "ELEMENT" => {
+                let set = card.get("ELSET").into_iter();
+                set.for_each(|set| self.cells.add(scope, set, added.clone()));
+                Ok(())
+            }
+            "NSET" => {
+                card.only(&[
+                    "NSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED", "ELSET",
+                ])?;
+                self.nodes.read(scope, card)?;
+                let Some(set) = card.get("ELSET") else {
+                    return Ok(());
+                };
+                let cells = self.cells.members(scope, (card, &card.line), set)?;
+                let nodes = cells
+                    .iter()
+                    .flat_map(|&cell| self.elements[cell].nodes.clone());
+                self.nodes.add(scope, card.need("NSET")?, nodes);
+                Ok(())
+            }
+            "ELSET" => {
+                card.only(&["ELSET", "GENERATE", "INSTANCE", "INTERNAL", "UNSORTED"])?;
+                self.cells.read(scope, card)
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The outer faces of a surface by faces, or by nodes.
+    fn read_surface(
+        &self,
+        scope: usize,
+        card: &Card<'_>,
+        outer: &BTreeSet<Side>,
+    ) -> Result<BTreeSet<Side>, Error> {
+        card.only(&["NAME", "TYPE", "INTERNAL"])?;
+        card.one_of("TYPE", &["ELEMENT", "NODE"])?;
+        if card.get("TYPE") == Some("NODE") {
+            return self.around_nodes(scope, card, outer);
+        }
+        let mut sides = BTreeSet::new();
+        for row in &card.rows {
+            let mut words = fields(row);
+            let word = words.next().unwrap_or_default();
+            let cells = self.cells.members(scope, (card, row), word)?;
+            let face = words.next().map(bare).unwrap_or_default();
+            if face.is_empty() {
+                let all = cells.iter().flat_map(|&cell| {
+                    (1..=self.elements[cell].kind.faces()).map(move |face| (cell, face))
+                });
+                sides.extend(all.filter(|side| outer.contains(side)));
+                continue;
+            }
+            for cell in cells {
+                sides.insert(
+                    self.side(cell, &face, 'S', outer)
+                        .map_err(|e| card.at(row, e))?,
+                );
+            }
+        }
+        Ok(sides)
+    }
+
+    /// The face of an element behind a label such as `S2`, which must be an outer one.
+    pub(crate) fn side(
+        &self,
+        cell: usize,
+        label: &str,
+        letter: char,
+        outer: &BTreeSet<Side>,
+    ) -> Result<Side, String> {
+        let element = &self.elements[cell];
+        let number = label.strip_prefix(letter).and_then(|n| n.parse().ok());
+        let face = number.filter(|&number| element.kind.face(number).is_some());
+        let Some(face) = face else {
+            return Err(format!(
+                "`{}` is no face of element {}; expected {letter}1 to {letter}{}",
+                quote(label),
+                element.label,
+                element.kind.faces()
+            ));
+        };
+        match outer.contains(&(cell, face)) {
+            true => Ok((cell, face)),
+            false => Err(format!(
+                "face {label} of element {} lies between two elements; expected an outer face",
+                element.label
+            )),
+        }
+    }
+
+    /// The outer faces all of whose corners are in a surface by nodes.
+    fn around_nodes(
+        &self,
+        scope: usize,
+        card: &Card<'_>,
+        outer: &BTreeSet<Side>,
+    ) -> Result<BTreeSet<Side>, Error> {
+        let mut nodes = BTreeSet::new();
+        for row in &card.rows {
+            let word = fields(row).next().unwrap_or_default();
+            nodes.extend(self.nodes.members(scope, (card, row), word)?);
+        }
+        let inside = |side: &&Side| self.corners(**side).iter().all(|node| nodes.contains(node));
+        Ok(outer.iter().filter(inside).copied().collect())
+    }
+
+    /// Corners of a face.
+    pub(crate) fn corners(&self, (cell, face): Side) -> Vec<usize> {
+        let element = &self.elements[cell];
+        let corners = element.kind.face(face).unwrap_or_default();
+        corners.iter().map(|&at| element.nodes[at]).collect()
+    }
+
+    /// Nodes of the cell's facet on a face.
+    pub(crate) fn facet(&self, (cell, face): Side) -> Vec<usize> {
+        let element = &self.elements[cell];
+        let facet = element.kind.facet(face).unwrap_or_default();
+        facet.iter().map(|&at| element.nodes[at]).collect()
+    }
+
+    /// The faces that belong to one element only.
+    pub(crate) fn outer_sides(&self) -> BTreeSet<Side> {
+        let mut keyed: Vec<([usize; 4], Side)> = Vec::new();
+        for (cell, element) in self.elements.iter().enumerate() {
+            for face in 1..=element.kind.faces() {
+                let mut key = [usize::MAX; 4];
+                let corners = self.corners((cell, face));
+                key[..corners.len()].copy_from_slice(&corners);
+                key.sort_unstable();
+                keyed.push((key, (cell, face)));
+            }
+        }
+        keyed.sort_unstable();
+        let alone = keyed
+            .chunk_by(|a, b| a.0 == b.0)
+            .filter(|same| same.len() == 1);
+        alone.map(|same| same[0].1).collect()
+    }
+}

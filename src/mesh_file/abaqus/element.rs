@@ -1,0 +1,210 @@
+//! The elements of decks that are read: their cells, the order of their nodes, their faces.
+//!
+//! ```text
+//! C3D4 C3D8 C3D10 C3D20      solids
+//! CPE, CPS, CAX 3 4 6 8      plane strain, plane stress, axisymmetric (x = r, y = z)
+//! ```
+//!
+//! Letters behind the name (R, I, H, M, S) choose how the element is integrated and against what it
+//! locks, which is the solver's own matter.
+
+use crate::body::CellKind;
+
+/// How strain and stress live in an element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Space {
+    /// 3D.
+    Solid,
+    /// No strain out of the plane.
+    PlaneStrain,
+    /// No stress out of the plane.
+    PlaneStress,
+    /// A ring around the y axis.
+    Axisymmetric,
+}
+
+/// A kind of element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct ElementKind {
+    /// The cell that it becomes.
+    pub(crate) cell: CellKind,
+    /// Where it lives.
+    pub(crate) space: Space,
+}
+
+/// The deck's position of every node of the cell, where the two orders differ.
+const HEX20: [usize; 20] = [
+    0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14,
+];
+const TET10: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8];
+
+/// Corners of the faces S1, S2, …
+const TETRAHEDRON: [&[usize]; 4] = [&[0, 1, 2], &[0, 3, 1], &[1, 3, 2], &[2, 3, 0]];
+const HEXAHEDRON: [&[usize]; 6] = [
+    &[0, 1, 2, 3],
+    &[4, 7, 6, 5],
+    &[0, 4, 5, 1],
+    &[1, 5, 6, 2],
+    &[2, 6, 7, 3],
+    &[3, 7, 4, 0],
+];
+const TRIANGLE: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
+const QUADRILATERAL: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
+
+/// Beginnings of names that are refused, and what they are.
+const REFUSED: [(&str, &str); 20] = [
+    ("C3D6", "a wedge"),
+    ("C3D15", "a wedge"),
+    ("C3D5", "a pyramid"),
+    ("SPRING", "a spring"),
+    ("SC", "a continuum shell"),
+    ("S", "a shell"),
+    ("B", "a beam"),
+    ("T", "a truss"),
+    ("M3D", "a membrane"),
+    ("MASS", "a point mass"),
+    ("ROTARY", "a rotary inertia"),
+    ("GAP", "a gap element"),
+    ("R", "a rigid element"),
+    ("DASHPOT", "a dashpot"),
+    ("DCOUP", "a distributing coupling"),
+    ("CONN", "a connector"),
+    ("COH", "a cohesive element"),
+    ("DC", "a heat transfer element"),
+    ("CGAX", "a ring that twists"),
+    ("U", "a user's element"),
+];
+
+impl ElementKind {
+    /// The kind of a name in capitals, or why it is not read.
+    pub(super) fn new(name: &str) -> Result<Self, String> {
+        let (space, rest) = [
+            ("C3D", Space::Solid),
+            ("CPE", Space::PlaneStrain),
+            ("CPS", Space::PlaneStress),
+            ("CAX", Space::Axisymmetric),
+        ]
+        .into_iter()
+        .find_map(|(start, space)| Some((space, name.strip_prefix(start)?)))
+        .ok_or_else(|| refusal(name))?;
+        let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+        let (nodes, letters) = rest.split_at(digits);
+        let cell = match (space, nodes) {
+            (Space::Solid, "4") => CellKind::Tet4,
+            (Space::Solid, "8") => CellKind::Hex8,
+            (Space::Solid, "10") => CellKind::Tet10,
+            (Space::Solid, "20") => CellKind::Hex20,
+            (Space::Solid, _) => return Err(refusal(name)),
+            (_, "3") => CellKind::Tri3,
+            (_, "4") => CellKind::Quad4,
+            (_, "6") => CellKind::Tri6,
+            (_, "8") => CellKind::Quad8,
+            _ => return Err(refusal(name)),
+        };
+        match letters.chars().all(|letter| "RIHMS".contains(letter)) {
+            true => Ok(Self { cell, space }),
+            false => Err(refusal(name)),
+        }
+    }
+
+    /// Turns the nodes of an element into the order of its cell.
+    pub(super) fn cell_nodes(self, nodes: &[usize]) -> Vec<usize> {
+        let reordered = |order: &[usize]| order.iter().map(|&at| nodes[at]).collect();
+        match self.cell {
+            CellKind::Hex20 => reordered(&HEX20),
+            CellKind::Tet10 => reordered(&TET10),
+            _ => nodes.to_vec(),
+        }
+    }
+
+    /// Corners of the face of a number, from 1.
+    pub(super) fn face(self, number: usize) -> Option<&'static [usize]> {
+        let faces: &[&[usize]] = match self.cell {
+            CellKind::Tet4 | CellKind::Tet10 => &TETRAHEDRON,
+            CellKind::Hex8 | CellKind::Hex20 => &HEXAHEDRON,
+            CellKind::Tri3 | CellKind::Tri6 => &TRIANGLE,
+            _ => &QUADRILATERAL,
+        };
+        faces.get(number.checked_sub(1)?).copied()
+    }
+
+    /// The cell's facet on the face of a number, from 1.
+    pub(crate) fn facet(self, number: usize) -> Option<&'static [usize]> {
+        let corners = self.face(number)?;
+        let mut facets = self.cell.facets().iter().copied();
+        facets.find(|facet| corners.iter().all(|corner| facet.contains(corner)))
+    }
+
+    /// Number of faces.
+    pub(super) fn faces(self) -> usize {
+        self.cell.facets().len()
+    }
+}
+
+fn refusal(name: &str) -> String {
+    let known = REFUSED.iter().find(|(start, _)| name.starts_with(start));
+    let what = known.map_or(String::new(), |(_, what)| format!(", {what},"));
+    format!(
+        "`TYPE={}`{what} is not read; accepted: C3D4, C3D8, C3D10, C3D20, and CPE, CPS, CAX of 3, \
+         4, 6 or 8 nodes",
+        super::card::quote(name)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    #[test]
+    fn every_face_is_a_facet_of_the_cell_and_no_two_are_the_same() {
+        for name in [
+            "C3D4", "C3D10T", "C3D10M", "C3D8I", "C3D20RH", "CPE3", "CPS6", "CAX8R",
+        ] {
+            let Ok(kind) = ElementKind::new(name) else {
+                assert_eq!(name, "C3D10T");
+                continue;
+            };
+            let facets = (1..=kind.faces()).map(|number| kind.facet(number).unwrap());
+            let facets: std::collections::BTreeSet<_> = facets.collect();
+            assert_eq!(facets.len(), kind.cell.facets().len(), "{name}");
+            assert!(kind.facet(0).is_none() && kind.facet(kind.faces() + 1).is_none());
+        }
+    }
+
+    #[test]
+    fn middle_nodes_stand_between_the_corners_of_the_deck_s_edges() {
+        // C3D20: 9 to 12 go around the bottom, 13 to 16 around the top, 17 to 20 up. C3D10: 5, 6, 7
+        // around the first face, then up from its corners 1, 2, 3.
+        let ring = |from: usize| (0..4).map(move |i| (from + i, from + (i + 1) % 4));
+        let uprights = (0..4).map(|i| (i, i + 4));
+        let hexahedron: Vec<_> = ring(0).chain(ring(4)).chain(uprights).collect();
+        let tetrahedron = vec![(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)];
+        for (name, edges) in [("C3D20", hexahedron), ("C3D10", tetrahedron)] {
+            let kind = ElementKind::new(name).unwrap();
+            let count = kind.cell.node_count();
+            let deck = kind.cell_nodes(&(0..count).collect::<Vec<_>>());
+            for (at, &place) in deck.iter().enumerate().skip(kind.cell.corner_count()) {
+                let (a, b) = edges[place - kind.cell.corner_count()];
+                let (a, b) = (kind.cell.position(a), kind.cell.position(b));
+                let middle = [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]));
+                assert_eq!(kind.cell.position(at), middle, "{name} {at}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_not_read_is_refused_by_what_it_is() {
+        for (name, said) in [
+            ("S8R", "a shell"),
+            ("C3D15", "a wedge"),
+            ("SPRINGA", "a spring"),
+            ("B32R", "a beam"),
+            ("C3D8T", "`TYPE=C3D8T` is not read"),
+            ("", "`TYPE=`"),
+        ] {
+            let reason = ElementKind::new(name).unwrap_err();
+            assert!(reason.contains(said), "{reason}");
+        }
+    }
+}

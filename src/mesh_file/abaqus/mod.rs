@@ -1,0 +1,21 @@
+//! Reader of Abaqus and CalculiX decks, as far as they state meshes.
+//!
+//! ```text
+//! lines (includes in place) → cards → instances of parts written out → nodes, elements, sets, surfaces
+//! ```
+//!
+//! What a deck says of materials, contact and loads is read in [`deck`](crate::deck).
+//! Formats: Abaqus keywords reference, CalculiX CrunchiX user's manual.
+
+mod card;
+mod contents;
+mod directory;
+mod element;
+mod instance;
+mod lines;
+
+pub(crate) use card::{Card, bare, cards, fields};
+pub(crate) use contents::{Contents, KEYWORDS, Side};
+pub(crate) use element::Space;
+pub(crate) use instance::{Flat, flatten};
+pub(crate) use lines::{Line, Source};
