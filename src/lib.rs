@@ -40,7 +40,7 @@ pub mod condensation;
 pub mod cone;
 pub mod contact;
 pub mod deck;
-pub mod error;
+mod error;
 pub mod kkt;
 pub mod limit;
 pub mod mesh_file;

@@ -35,11 +35,14 @@ mod settings;
 mod starts;
 mod stiffness;
 
-pub use contraction::{Contraction, contraction};
+pub(crate) use contraction::Contraction;
+pub use contraction::contraction;
 pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use path::continuity::{Earlier, WayBack, way_back};
-pub use settings::{Mixing, Settings, Sweeps, Variant};
-pub use starts::{OtherStarts, other_starts};
+pub(crate) use settings::Mixing;
+pub use settings::{Settings, Sweeps, Variant};
+pub(crate) use starts::OtherStarts;
+pub use starts::other_starts;
 
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;

@@ -8,7 +8,7 @@ const ROUND_OFF: f64 = 1e-10;
 /// The radial unknowns (`dimension · node + axis`) of nodes on the axis, which stay there; none if
 /// the body is not axisymmetric.
 #[must_use]
-pub fn held_by_axis(body: &Body) -> Vec<usize> {
+pub(crate) fn held_by_axis(body: &Body) -> Vec<usize> {
     let Some(axis) = Axis::of(body) else {
         return Vec::new();
     };

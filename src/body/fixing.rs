@@ -16,7 +16,7 @@ const SERVES: f64 = 0.1;
 /// components are never chosen, and components of the nodes to `avoid` (such as those on the contact surface, any
 /// order) only where the others of their part hardly move.
 #[must_use]
-pub fn fixing_dofs(
+pub(crate) fn fixing_dofs(
     body: &Body,
     prescribed: &[Option<f64>],
     free: &FreeModes,

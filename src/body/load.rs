@@ -18,13 +18,13 @@ use super::{Body, Facet, Load};
 /// Facets run in outward order ([`Mesh::orient`](super::Mesh::orient)) and the body has
 /// passed [`check`](super::check()).
 #[must_use]
-pub fn load_vector(body: &Body) -> Vec<f64> {
+pub(crate) fn load_vector(body: &Body) -> Vec<f64> {
     nodal_forces(body, &body.loads)
 }
 
 /// The same of some loads on a body, such as one of its own alone.
 #[must_use]
-pub fn nodal_forces(body: &Body, loads: &[Load]) -> Vec<f64> {
+pub(crate) fn nodal_forces(body: &Body, loads: &[Load]) -> Vec<f64> {
     let mut forces = NodalForces {
         body,
         values: vec![0.0; body.mesh.dimension * body.mesh.nodes.len()],

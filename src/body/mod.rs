@@ -37,7 +37,7 @@ mod incidence;
 mod kinds;
 mod load;
 mod material;
-pub mod mesh;
+mod mesh;
 mod quadrature;
 mod recovery;
 mod reference;
@@ -52,23 +52,24 @@ mod support;
 pub(crate) mod tests;
 
 pub(crate) use axis::Axis;
-pub use axis::held_by_axis;
+pub(crate) use axis::held_by_axis;
 pub use check::check;
-pub use facet::FacetGeometry;
+pub(crate) use facet::FacetGeometry;
 pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;
 
-pub use fixing::fixing_dofs;
+pub(crate) use fixing::fixing_dofs;
 pub use kinds::CellKind;
-pub use load::{load_vector, nodal_forces};
-pub use material::Lame;
+pub(crate) use load::{load_vector, nodal_forces};
+pub(crate) use material::Lame;
 pub use mesh::{Cell, Facet, Group, Mesh};
-pub use recovery::{StressRecovery, stress_recovery};
+pub(crate) use recovery::stress_recovery;
 pub use rigid_modes::{FreeModes, RigidMode, free_modes};
 pub use stiffness::stiffness;
-pub use stress::{cell_stress, nodal_stress, von_mises};
+pub(crate) use stress::{cell_stress, nodal_stress, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
-pub use support::{prescribed, prescribed_by};
+pub use support::prescribed;
+pub(crate) use support::prescribed_by;
 
 /// How strain and stress live in the body's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -17,7 +17,7 @@ use super::{Body, Cell, Material, Model, cell_stress};
 
 /// What (B9) finds in a body; both squared energy norms, in joule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct StressRecovery {
+pub(crate) struct StressRecovery {
     /// η², an estimate of the error.
     pub error: f64,
     /// ‖σ‖², twice the elastic energy.
@@ -28,7 +28,7 @@ pub struct StressRecovery {
 ///
 /// `displacement` in metre, entry `dimension · node + axis`.
 #[must_use]
-pub fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
+pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
     let centres = cell_stress(body, displacement);
     let volumes: Vec<f64> = (0..centres.len())
         .map(|cell| body.mesh.volume(cell))

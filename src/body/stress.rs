@@ -21,7 +21,7 @@ use super::{Body, Cell, Lame, Model};
 ///
 /// `displacement` in metre, entry `dimension · node + axis`.
 #[must_use]
-pub fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
+pub(crate) fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
     let field = Field { body, displacement };
     let patches = Patches::new(body);
     let around_nodes: Vec<f64> = patches
@@ -54,7 +54,11 @@ pub fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
 ///
 /// `displacement` in metre, entry `dimension · node + axis`, `cell_stress` as from [`cell_stress`].
 #[must_use]
-pub fn nodal_stress(body: &Body, displacement: &[f64], cell_stress: &[[f64; 6]]) -> Vec<[f64; 6]> {
+pub(crate) fn nodal_stress(
+    body: &Body,
+    displacement: &[f64],
+    cell_stress: &[[f64; 6]],
+) -> Vec<[f64; 6]> {
     let mut sums = vec![([0.0; 6], 0.0); body.mesh.nodes.len()];
     for (index, stress) in cell_stress.iter().enumerate() {
         let volume = body.mesh.volume(index);
@@ -122,7 +126,7 @@ pub(super) fn stress_of(lame: Lame, model: Model, gradient: &Matrix3<f64>, theta
 /// Von Mises' equivalent stress `√(3/2 s : s)`, in pascal, of a stress in the order
 /// xx, yy, zz, yz, xz, xy.
 #[must_use]
-pub fn von_mises([xx, yy, zz, yz, xz, xy]: [f64; 6]) -> f64 {
+pub(crate) fn von_mises([xx, yy, zz, yz, xz, xy]: [f64; 6]) -> f64 {
     let differences = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
     (0.5 * differences + 3.0 * (yz * yz + xz * xz + xy * xy)).sqrt()
 }

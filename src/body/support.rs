@@ -33,7 +33,7 @@ pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
 /// # Errors
 ///
 /// Those of [`prescribed`].
-pub fn prescribed_by(
+pub(crate) fn prescribed_by(
     supports: &[Support],
     axes: usize,
     nodes: usize,

@@ -47,7 +47,6 @@ mod wedge;
 
 pub use boussinesq::Boussinesq;
 pub use cattaneo_mindlin::{CattaneoMindlin, mindlin_displacement};
-pub use elliptic::elliptic_k;
 pub use flat_punch::{FlatLinePunch, FlatRoundPunch};
 pub use hertz_line::HertzLine;
 pub use hertz_sphere::HertzSphere;

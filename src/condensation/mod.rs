@@ -40,7 +40,7 @@ pub(crate) mod tests;
 mod work;
 
 pub use condensed::Condensed;
-pub use condensed_body::CondensedBody;
-pub use rigid_bodies::{PartMotion, RigidBodies};
-pub use superposition::{Driven, Superposition};
-pub use work::CondensationWork;
+pub(crate) use condensed_body::CondensedBody;
+pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
+pub(crate) use superposition::{Driven, Superposition};
+pub(crate) use work::CondensationWork;

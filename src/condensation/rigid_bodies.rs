@@ -17,7 +17,7 @@ const ROUND_OFF: f64 = 1e-13;
 
 /// Bodies, their contact surface and their free modes, without any stiffness.
 #[derive(Debug)]
-pub struct RigidBodies {
+pub(crate) struct RigidBodies {
     surface: ContactSurface,
     groundings: Vec<Grounding>,
     dimension: usize,
@@ -45,7 +45,7 @@ impl RigidBodies {
     ///
     /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
     /// [`ContactSurface::new`] refuse.
-    pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
+    pub(crate) fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
         let mut prescribed = Vec::with_capacity(bodies.len());
         for body in bodies {
             body::check(body)?;
@@ -64,25 +64,25 @@ impl RigidBodies {
 
     /// The contact surface.
     #[must_use]
-    pub fn surface(&self) -> &ContactSurface {
+    pub(crate) fn surface(&self) -> &ContactSurface {
         &self.surface
     }
 
     /// R of (C3), per contact unknown and free mode.
     #[must_use]
-    pub fn modes(&self) -> Mat<f64> {
+    pub(crate) fn modes(&self) -> Mat<f64> {
         contact_modes(&self.surface, &self.groundings, self.dimension)
     }
 
     /// Work on every free mode of nodal forces per body (`node · dimension + axis`), in newton.
     #[must_use]
-    pub fn load(&self, forces: &[Vec<f64>]) -> Vec<f64> {
+    pub(crate) fn load(&self, forces: &[Vec<f64>]) -> Vec<f64> {
         mode_loads(&self.groundings, forces)
     }
 
     /// How the free parts move under an amplitude per free mode, in metre.
     #[must_use]
-    pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
+    pub(crate) fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
         part_motions(&self.groundings, motion)
     }
 }

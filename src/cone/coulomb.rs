@@ -19,7 +19,7 @@ use crate::problem::ContactProblem;
 use crate::problem::velocity_basis::{VelocityBasis, norm, product};
 
 /// (H8) for one problem, set up once for many shifts and loads.
-pub struct CoulombProgram<'a> {
+pub(crate) struct CoulombProgram<'a> {
     problem: &'a ContactProblem,
     basis: VelocityBasis,
     generators: Generators,
@@ -30,7 +30,7 @@ pub struct CoulombProgram<'a> {
 
 /// What (H8) left.
 #[derive(Clone, Debug, PartialEq)]
-pub struct CoulombSolution {
+pub(crate) struct CoulombSolution {
     /// Reaction, admissible, in newton per contact unknown.
     pub reaction: Vec<f64>,
     /// Rigid motion α: `u = û + G t + R α`.
@@ -46,7 +46,7 @@ impl<'a> CoulombProgram<'a> {
     ///
     /// `None` if the modes do not fit the problem or the cone solver refuses the numbers.
     #[must_use]
-    pub fn new(problem: &'a ContactProblem, modes: MatRef<'_, f64>) -> Option<Self> {
+    pub(crate) fn new(problem: &'a ContactProblem, modes: MatRef<'_, f64>) -> Option<Self> {
         if modes.nrows() != problem.unknowns() {
             return None;
         }
@@ -87,7 +87,7 @@ impl<'a> CoulombProgram<'a> {
     ///
     /// `None` if the cone solver gives up. If nothing holds the load, the remainder says so: ask
     /// [`RigidContacts::admissible`](super::RigidContacts::admissible) first.
-    pub fn solve(
+    pub(crate) fn solve(
         &mut self,
         load: &[f64],
         shift: &[f64],

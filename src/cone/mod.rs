@@ -25,7 +25,8 @@ mod generators;
 mod normal;
 mod reduced;
 
-pub use coulomb::{CoulombProgram, CoulombSolution};
+pub(crate) use coulomb::CoulombProgram;
 pub use friction::FrictionHalfStep;
 pub use normal::NormalHalfStep;
-pub use reduced::{HalfStepWork, Role};
+pub(crate) use reduced::HalfStepWork;
+pub use reduced::Role;

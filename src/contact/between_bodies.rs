@@ -43,7 +43,7 @@ struct Side {
 /// # Errors
 ///
 /// A body that does not exist, facets that are not on the boundary or on both sides, and
-/// what [`mortar::couple`] refuses.
+/// what the mortar coupling refuses.
 pub(super) fn between_surfaces(
     scene: &Bodies<'_>,
     pair: &ContactPair,

@@ -9,7 +9,7 @@ use crate::error::{Error, check_length};
 
 /// What a reaction that is said to hold a load leaves open; all zero where it holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Held {
+pub(crate) struct Held {
     /// Largest load on a mode that is not answered, in newton (K8).
     pub equilibrium: Defect,
     /// Largest departure of a contact from `t_N ≤ 0`, `‖t_T‖ ≤ −μ t_N`, in newton; scaled by
@@ -25,7 +25,7 @@ pub struct Held {
 /// # Errors
 ///
 /// [`Error::Length`] or [`Error::OutOfRange`] if the arrays do not belong together.
-pub fn held(
+pub(crate) fn held(
     offsets: &[usize],
     friction: &[f64],
     modes: MatRef<'_, f64>,

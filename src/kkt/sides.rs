@@ -43,7 +43,7 @@ pub(super) fn shares(contact: &ContactNode) -> impl Iterator<Item = Share> + '_ 
 /// Force of one contact on its own body in global axes, in newton, from its block of the
 /// reaction (K5).
 #[must_use]
-pub fn global_force(contact: &ContactNode, block: &[f64]) -> [f64; 3] {
+pub(crate) fn global_force(contact: &ContactNode, block: &[f64]) -> [f64; 3] {
     let mut force = [0.0; 3];
     for (direction, t) in contact.frame.iter().zip(block) {
         for axis in 0..3 {
@@ -58,7 +58,7 @@ pub fn global_force(contact: &ContactNode, block: &[f64]) -> [f64; 3] {
 /// `displacements` are per body and unknown (`node · dimension + axis`), of bodies and
 /// nodes that exist.
 #[must_use]
-pub fn relative_displacement(
+pub(crate) fn relative_displacement(
     contact: &ContactNode,
     displacements: &[Vec<f64>],
     dimension: usize,

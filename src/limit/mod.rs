@@ -25,7 +25,6 @@ mod separation;
 pub(crate) mod tests;
 
 pub use equilibrium::Equilibrium;
-pub use failure_motion::FailureMotion;
 pub use least_friction::LeastFriction;
 pub use load_factor::Limit;
 pub use rigid_contacts::RigidContacts;

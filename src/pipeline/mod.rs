@@ -25,7 +25,7 @@ use crate::scene::{Mechanics, Scene};
 use crate::{alternation, body, kkt};
 
 pub use cases::{Variation, cases, cases_watched};
-pub use halving::Halving;
+pub(crate) use halving::Halving;
 pub use limit::limit;
 pub use steps::{SolvedStep, solve_steps};
 

@@ -39,17 +39,15 @@ mod work;
 
 use serde::Serialize;
 
-pub use certificate::{
-    ReportedBalance, ReportedCertificate, ReportedDefect, ReportedResultant, ReportedWorst,
-    ReportedWorstNode,
-};
+pub(crate) use certificate::ReportedDefect;
+pub use certificate::{ReportedBalance, ReportedCertificate, ReportedWorst};
 pub use contacts::{Contact, ReportedContactState};
 pub use failure::ReportedFailure;
 #[cfg(feature = "cli")]
-pub use figure::{Axis, Curve, Figure, Point, plot};
+pub use figure::plot;
 pub use file::replace_file;
 #[cfg(feature = "cli")]
-pub use hard::{HardCase, HardCases};
+pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
 pub use motion::ReportedMotion;
 pub(crate) use motion::motions;
@@ -58,12 +56,14 @@ pub use quality::Quality;
 pub use shortfall::{Reason, ReportedShortfall};
 pub use step::{ReportedHalving, ReportedLedger, ReportedStep};
 #[cfg(feature = "cli")]
-pub use study::{Exponent, KnownTotal, Part, StageSeconds, StudiedMesh, StudiedRun, Study};
-pub use table::{Cell, Table};
-pub use totals::{PairTotals, ReportedExchange, Totals};
-pub use trust::{Continuity, Trust, TrustedState};
+pub(crate) use study::{KnownTotal, StageSeconds};
 #[cfg(feature = "cli")]
-pub use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
+pub use study::{Part, StudiedMesh, StudiedRun, Study};
+pub use table::{Cell, Table};
+pub use totals::{PairTotals, Totals};
+pub use trust::{Continuity, Trust};
+#[cfg(feature = "cli")]
+pub(crate) use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
 pub use work::{ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
 
 use crate::alternation::Outcome;

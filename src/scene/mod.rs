@@ -40,8 +40,10 @@ pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
-pub use saved_state::{Exact, Fingerprint, SavedState, exact, plain};
-pub use steps::{LoadHistory, SceneSteps, driven};
+pub use saved_state::SavedState;
+pub(crate) use saved_state::{Exact, Fingerprint, exact, plain};
+pub use steps::SceneSteps;
+pub(crate) use steps::{LoadHistory, driven};
 pub use support::SceneSupport;
 
 use mesh_source::MOST_NODES;

@@ -103,13 +103,13 @@ impl SavedState {
 
 /// Numbers to be written.
 #[must_use]
-pub fn exact(values: &[f64]) -> Vec<Exact> {
+pub(crate) fn exact(values: &[f64]) -> Vec<Exact> {
     values.iter().map(|&value| Exact(value)).collect()
 }
 
 /// Numbers that were read.
 #[must_use]
-pub fn plain(values: &[Exact]) -> Vec<f64> {
+pub(crate) fn plain(values: &[Exact]) -> Vec<f64> {
     values.iter().map(|value| value.0).collect()
 }
 

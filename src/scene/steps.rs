@@ -120,7 +120,7 @@ impl SceneSteps {
 
 /// Every load and support of bodies, by its place in the scene, such as `bodies[0].loads[1]`.
 #[must_use]
-pub fn driven(bodies: &[Body]) -> Vec<(String, Driven)> {
+pub(crate) fn driven(bodies: &[Body]) -> Vec<(String, Driven)> {
     let mut places = Vec::new();
     for (body, of) in bodies.iter().enumerate() {
         let loads = (0..of.loads.len()).map(|index| Driven::Load { body, index });

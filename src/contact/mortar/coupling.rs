@@ -38,7 +38,8 @@ const NEGLIGIBLE: f64 = 4.0 * f64::EPSILON;
 /// Meshes of different dimension, what is no facet (a wrong number of nodes, a node that
 /// does not exist, no area, a fold), bodies that overlap deeper, and sides of which no part
 /// faces the other.
-pub fn couple(
+#[cfg(test)]
+pub(in crate::contact) fn couple(
     mesh1: &Mesh,
     facets1: &[Facet],
     mesh2: &Mesh,

@@ -53,18 +53,19 @@ mod tests;
 mod view;
 
 pub(in crate::contact) use coupling::average;
-pub use coupling::couple;
+#[cfg(test)]
+pub(in crate::contact) use coupling::couple;
 
 /// The contact nodes of side 1, each with the nodes of side 2 that it meets.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Mortar {
+pub(crate) struct Mortar {
     /// Contact nodes in the order in which the facets of side 1 name them.
     pub nodes: Vec<MortarNode>,
 }
 
 /// A node of side 1 and its share of side 2.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MortarNode {
+pub(crate) struct MortarNode {
     /// Node of side 1's mesh: a corner.
     pub node: usize,
     /// The nodes of side 1's mesh that it moves with and their weights, which sum to one (C16);
