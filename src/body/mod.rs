@@ -14,7 +14,7 @@
 //! ```
 //!
 //! In order: [`check`](check()), [`prescribed`], [`free_modes`], then [`stiffness`](stiffness())
-//! and [`load_vector`], and [`cell_stress`] of the displacement found.
+//! and the load vector, and the stress of the displacement found.
 //!
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
 //! plane stress; every force below is for that depth. Forces on an axisymmetric body are

@@ -30,7 +30,7 @@ pub struct Quality {
     /// the mesh resolves the pressure; `null` where no contact is well inside the contact zone.
     pub oscillation: Option<f64>,
     /// Estimated error of the stress of all bodies relative to the stress, both in the energy norm
-    /// ([`stress_recovery`](crate::body::stress_recovery)); `null` unless asked for.
+    /// (B9); `null` unless asked for.
     pub stress_error_estimate: Option<f64>,
 }
 
