@@ -30,8 +30,22 @@
 //! | study | [`mod@study`] | a scene over meshes, tolerances, friction and loops |
 //! | verification | [`mod@verify`] | scenes whose answers are known, on ladders of meshes |
 //!
-//! A problem that another code condensed goes straight to [`alternation::solve`](alternation::solve()).
-//! The README has a program for either way, the signs, and the scene format.
+//! # Ways in
+//!
+//! Each page has a program that runs:
+//!
+//! | what is at hand | start |
+//! |---|---|
+//! | a scene in JSON | [`Scene::from_json`], [`solve`] |
+//! | meshes and arrays in memory | [`Scene::new`], [`body::Mesh::from_arrays`], [`solve`] |
+//! | a condensed problem of another code | [`ContactProblem`], [`alternation::solve`](alternation::solve()) |
+//! | a load history | [`solve_steps`] |
+//! | many values of friction, loads, gaps | [`cases`] |
+//! | the question how much load or friction it takes | [`limit`](limit()) |
+//! | the question what theory says | [`closed_forms`] |
+//!
+//! The README has the signs and the scene format. Without the feature `cli`, which is there by default,
+//! the crate is the library alone: no command line, JSON Schema, gallery, studies or figures.
 
 pub mod alternation;
 pub mod body;
@@ -63,6 +77,9 @@ pub use scene::Scene;
 pub use study::study;
 #[cfg(feature = "cli")]
 pub use verify::verify;
+
+#[doc = include_str!("method.md")]
+pub mod method {}
 
 /// Dense matrices: what an operator and free modes are made of.
 pub use faer;

@@ -36,6 +36,26 @@ const CHAIN: usize = 25;
 /// Solves a scene for every combination of values, all on one factorisation, and tabulates totals,
 /// extremes, status and certificate; the last variation changes fastest.
 ///
+/// ```
+/// use dpana::{Scene, Variation, cases};
+///
+/// # fn main() -> Result<(), dpana::Error> {
+/// let scene = r#"{
+///     "bodies": [{ "mesh": { "rectangle": { "x": [0, 2], "y": [0, 1], "cells": [8, 4] } },
+///                  "model": "plane_strain",
+///                  "materials": [{ "young": 1000, "poisson": 0.3 }],
+///                  "supports": [{ "group": "top", "displacement": [0.01, -0.01] }] }],
+///     "contacts": [{ "group": "bottom", "friction": 0.3,
+///                    "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }] }"#;
+/// let friction = Variation { name: "friction".to_owned(), values: vec![0.0, 0.1, 0.2] };
+/// let table = cases(&Scene::from_json(scene, "")?, &[friction])?;
+/// // The block slides: the more friction, the stronger it is held back.
+/// let pull = table.column("friction_x").unwrap();
+/// assert!(pull[0] == 0.0 && pull[0] > pull[1] && pull[1] > pull[2]);
+/// # Ok(())
+/// # }
+/// ```
+///
 /// Along the last variation every case starts from the one before, if that is certified, in
 /// chains of at most 25; the chains are solved side by side on the threads of the current pool:
 /// the table does not depend on their number.

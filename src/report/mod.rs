@@ -4,6 +4,22 @@
 //! text ([`Report::summary`]) and, with the fields of the bodies, as VTU files ([`vtu`]).
 //! Lengths, forces and pressures are in the units of the scene, whose label is echoed
 //! and never converts. A contact force acts on the contact's own body; pressure is positive.
+//!
+//! The keys of the JSON report:
+//!
+//! | key | content |
+//! |---|---|
+//! | `status` | `certified`, `not_converged` or `no_equilibrium` |
+//! | `reason`, `advice` | with `not_converged`: sweep limit, stall, cone solver, ill-conditioned, a body out of balance or round-off, and what to do |
+//! | `failure` | with `no_equilibrium`: which body moves how, what slides or opens, the force that is missing |
+//! | `certificate` | natural-map residual, every law's worst violation and where, bipotential gap; per body the balance of forces and moments |
+//! | `step` | of a history: number, instant, values of the tables, ledger of the step and since the start, what halving it changed |
+//! | `totals` | counts of open, stick and slip, resultants, contact area, slip area, peak pressure; the same per contact pair, and what its sides exchange |
+//! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
+//! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
+//! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
+//! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
+//! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
 
 mod certificate;
 mod contacts;

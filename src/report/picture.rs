@@ -166,12 +166,22 @@ impl Picture<'_> {
     }
 
     fn draw_legend(&self, svg: &mut String, view: &View, factor: f64) {
-        let y = view.size[1] - 0.4 * LEGEND;
-        let mut x = MARGIN;
-        for (state, word, _) in STATES {
+        let [width, height] = view.size;
+        let (y, mut x) = (height - 0.4 * LEGEND, MARGIN);
+        let _ = writeln!(
+            svg,
+            "<rect y=\"{:.1}\" width=\"{width:.1}\" height=\"{LEGEND}\" fill=\"#fff\"/>\n\
+             <g stroke=\"#222\" stroke-width=\"0.7\">",
+            height - LEGEND
+        );
+        for (state, ..) in STATES {
             draw_mark(svg, [x, y - 4.5], state);
-            text(svg, [x + 9.0, y], "start", word);
             x += 62.0;
+        }
+        svg.push_str("</g>\n");
+        for ((_, word, _), column) in STATES.into_iter().zip(0..) {
+            let x = MARGIN + 62.0 * f64::from(column);
+            text(svg, [x + 9.0, y], "start", word);
         }
         let units = match self.report.units.is_empty() {
             true => String::new(),
@@ -182,7 +192,7 @@ impl Picture<'_> {
             plain(self.report.totals.peak_pressure),
             plain(factor)
         );
-        text(svg, [view.size[0] - MARGIN, y], "end", &words);
+        text(svg, [width - MARGIN, y], "end", &words);
     }
 }
 

@@ -1,4 +1,28 @@
 //! Load steps: the instants at which a state is solved, and what changes from one to the next.
+//!
+//! `at` are the instants, rising, from bodies at rest without any load. `factors` multiply a load or
+//! support over the instants, `obstacles` move an obstacle from where the scene puts it. Tables are linear
+//! between rows and constant outside; what has no table acts in full throughout. A support may be split in
+//! two, one per component, so that each has its table. In every step Coulomb's law sees the slip since the
+//! state before; a contact that was open takes up its slip from where it was last seen open. Where surfaces
+//! are inclined and bodies approach, several steps of approach tell better than one where each contact
+//! closed. All steps share one factorisation per body, and one pair of substitutions per driven load or
+//! support: free displacements are sums of these. A history ends with the first state that is not certified.
+//!
+//! The ledger of a step says where the work of loads, supports and obstacles went: elastic energy, friction,
+//! and a rest (`closure`) that the two ends of the step do not explain. It is zero where loads grow in
+//! proportion and no contact changes its state, and otherwise shrinks with the square of the steps.
+//! `resolve` solves every step in two halves as well, and these in halves, until the ledger leaves at most
+//! that part of the work unexplained and halving changes the dissipated energy by at most that part of the
+//! work, and the state of contacts on at most that part of the area of contact; 128 parts at most, then a
+//! note says what is left. Reports and tables show the stated instants only; `step.halving` says in how many
+//! parts a step was solved and what halving these changed. The first step is not halved: nothing is stated
+//! of the way to it. What this does to a cycle of shear is measured in `tests/README.md`.
+//!
+//! A run that is interrupted loses the step in progress: with `--table`, `--plot`, `--vtu` and `--state`
+//! every file is whole after each step, the state last. `--restart STATE` goes on from there, bit for bit,
+//! and so do the table, the plot and the series that it finds. The state knows the bodies, the contacts and
+//! what acted at every instant so far, and refuses another scene; instants and rows that come later may change.
 
 use std::collections::BTreeMap;
 
