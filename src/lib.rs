@@ -58,7 +58,7 @@ mod error;
 pub mod kkt;
 pub mod limit;
 pub mod mesh_file;
-pub mod pipeline;
+mod pipeline;
 pub mod problem;
 pub mod report;
 pub mod scene;
@@ -70,7 +70,9 @@ pub mod verify;
 pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
-pub use pipeline::{Solution, Variation, cases, cases_watched, limit, solve, solve_steps};
+pub use pipeline::{
+    Solution, SolvedStep, Variation, cases, cases_watched, limit, solve, solve_steps,
+};
 pub use problem::ContactProblem;
 pub use scene::Scene;
 #[cfg(feature = "cli")]
@@ -83,6 +85,8 @@ pub mod method {}
 
 /// Dense matrices: what an operator and free modes are made of.
 pub use faer;
+/// Sparse matrices: what a body's stiffness is.
+pub use sprs;
 
 /// The programs of the README, run as tests.
 #[cfg(doctest)]

@@ -37,7 +37,8 @@ mod stiffness;
 
 pub(crate) use contraction::Contraction;
 pub use contraction::contraction;
-pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
+pub(crate) use history::Failure;
+pub use history::{Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use path::continuity::{Earlier, WayBack, way_back};
 pub(crate) use settings::Mixing;
 pub use settings::{Settings, Sweeps, Variant};

@@ -22,7 +22,7 @@ const FLAT: f64 = 1e-10;
 /// # Errors
 ///
 /// The first thing that is wrong, with its place, value and what is accepted.
-pub fn check(body: &Body) -> Result<(), Error> {
+pub(crate) fn check(body: &Body) -> Result<(), Error> {
     let name = &body.name;
     let expected = body.model.dimension();
     if body.mesh.dimension != expected {

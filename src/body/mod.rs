@@ -13,8 +13,8 @@
 //! (B11) K_ab of a ring                                                          stiffness.rs
 //! ```
 //!
-//! In order: [`check`](check()), [`prescribed`], [`free_modes`], then [`stiffness`](stiffness())
-//! and the load vector, and the stress of the displacement found.
+//! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
+//! vector, and the stress of the displacement found.
 //!
 //! Plane bodies are 1 m deep in plane strain and as deep as their thickness in
 //! plane stress; every force below is for that depth. Forces on an axisymmetric body are
@@ -53,7 +53,7 @@ pub(crate) mod tests;
 
 pub(crate) use axis::Axis;
 pub(crate) use axis::held_by_axis;
-pub use check::check;
+pub(crate) use check::check;
 pub(crate) use facet::FacetGeometry;
 pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;
@@ -62,14 +62,17 @@ pub(crate) use fixing::fixing_dofs;
 pub use kinds::CellKind;
 pub(crate) use load::{load_vector, nodal_forces};
 pub(crate) use material::Lame;
-pub use mesh::{Cell, Facet, Group, Mesh};
+pub(crate) use mesh::Cell;
+pub use mesh::{Facet, Group, Mesh};
 pub(crate) use recovery::stress_recovery;
-pub use rigid_modes::{FreeModes, RigidMode, free_modes};
-pub use stiffness::stiffness;
+pub(crate) use rigid_modes::{RigidMode, free_modes};
+pub(crate) use stiffness::stiffness;
 pub(crate) use stress::{cell_stress, nodal_stress, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
-pub use support::prescribed;
+pub(crate) use support::prescribed;
 pub(crate) use support::prescribed_by;
+
+use crate::error::Error;
 
 /// How strain and stress live in the body's dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -159,4 +162,36 @@ pub struct Body {
     pub supports: Vec<Support>,
     /// Given forces.
     pub loads: Vec<Load>,
+}
+
+impl Body {
+    /// Stiffness matrix without supports (B3), in N/m: symmetric, both triangles, rows
+    /// `dimension · node + axis` with ascending columns.
+    ///
+    /// # Errors
+    ///
+    /// The first thing that is wrong with the body, with its place, value and what is accepted.
+    pub fn stiffness(&self) -> Result<sprs::CsMat<f64>, Error> {
+        check(self)?;
+        Ok(stiffness(self))
+    }
+
+    /// Prescribed displacement per unknown `dimension · node + axis`, in metre; `None` where free.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Body::stiffness`], and supports that contradict each other.
+    pub fn prescribed(&self) -> Result<Vec<Option<f64>>, Error> {
+        check(self)?;
+        prescribed(self)
+    }
+
+    /// Number of rigid motions that the supports leave free (B8): contact alone holds these.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Body::prescribed`].
+    pub fn free_motions(&self) -> Result<usize, Error> {
+        Ok(free_modes(self, &self.prescribed()?).modes.len())
+    }
 }

@@ -14,7 +14,7 @@ use super::rigid::{Motion, Part, parts};
 
 /// A rigid motion of a part of a body; amplitudes are in metre.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RigidMode {
+pub(crate) struct RigidMode {
     /// Displacement of the centre, per amplitude.
     pub translation: [f64; 3],
     /// Rotation about the centre, in 1/m per amplitude.
@@ -28,7 +28,7 @@ pub struct RigidMode {
 impl RigidMode {
     /// Displacement at a position of the part, per amplitude.
     #[must_use]
-    pub fn displacement(&self, position: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn displacement(&self, position: [f64; 3]) -> [f64; 3] {
         let arm = Vector3::from(position) - Vector3::from(self.centre);
         (Vector3::from(self.translation) + Vector3::from(self.rotation).cross(&arm)).into()
     }
@@ -36,7 +36,7 @@ impl RigidMode {
 
 /// All free rigid motions of a body, and who takes part in them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct FreeModes {
+pub(crate) struct FreeModes {
     /// The basis (B8): none where the supports hold every part.
     pub modes: Vec<RigidMode>,
     /// Nodes of each connected part.
@@ -49,7 +49,7 @@ pub struct FreeModes {
 /// Where a part is entirely free, the first modes are the translations along the axes.
 /// The body has passed [`check`](super::check()).
 #[must_use]
-pub fn free_modes(body: &Body, prescribed: &[Option<f64>]) -> FreeModes {
+pub(crate) fn free_modes(body: &Body, prescribed: &[Option<f64>]) -> FreeModes {
     let parts = parts(body);
     let mut modes = Vec::new();
     for (index, nodes) in parts.iter().enumerate() {

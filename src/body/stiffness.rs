@@ -25,7 +25,7 @@ use super::{Body, Model};
 ///
 /// The body has passed [`check`](super::check()).
 #[must_use]
-pub fn stiffness(body: &Body) -> sprs::CsMat<f64> {
+pub(crate) fn stiffness(body: &Body) -> sprs::CsMat<f64> {
     let mesh = &body.mesh;
     let patches = Patches::new(body);
     let lists = (0..mesh.cell_count()).map(|cell| mesh.cell(cell).nodes);

@@ -12,7 +12,7 @@ use crate::error::Error;
 /// [`Error::ContradictorySupports`] if two supports give one component different values
 /// (equal ones are fine), [`Error::UnknownIndex`] for a node that does not exist,
 /// [`Error::OutOfRange`] for a support that moves a node off the axis.
-pub fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
+pub(crate) fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
     let mesh = &body.mesh;
     let mut prescribed = prescribed_by(&body.supports, mesh.dimension, mesh.nodes.len())?;
     for unknown in held_by_axis(body) {

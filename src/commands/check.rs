@@ -7,7 +7,6 @@ use std::process::ExitCode;
 
 use super::scene_file::read_scene;
 use clap::Args;
-use dpana::body;
 
 #[derive(Args)]
 pub(crate) struct Check {
@@ -31,7 +30,7 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
             body.supports.len(),
             body.loads.len(),
         )?;
-        let free = body::free_modes(body, &body::prescribed(body)?).modes.len();
+        let free = body.free_motions()?;
         if free > 0 {
             let name = &body.name;
             writeln!(

@@ -70,7 +70,8 @@ pub(crate) use motion::motions;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
 pub use shortfall::{Reason, ReportedShortfall};
-pub use step::{ReportedHalving, ReportedLedger, ReportedStep};
+pub(crate) use step::ReportedHalving;
+pub use step::{ReportedLedger, ReportedStep};
 #[cfg(feature = "cli")]
 pub(crate) use study::{KnownTotal, StageSeconds};
 #[cfg(feature = "cli")]

@@ -10,7 +10,7 @@
 //! t_N = min(0, t_N − ρ u_N),    t_T = P(t_T − ρ u_T),    P on the disc of radius −μ t_N
 //! ```
 
-use dpana::body::{self, Body, Group};
+use dpana::body::{Body, Group};
 use dpana::{Scene, Solution, Status, solve};
 use faer::Col;
 use faer::linalg::solvers::Solve;
@@ -89,8 +89,8 @@ impl FullProblem {
         contacts.sort_unstable();
         contacts.dedup();
         Self {
-            stiffness: body::stiffness(body),
-            prescribed: body::prescribed(body).unwrap(),
+            stiffness: body.stiffness().unwrap(),
+            prescribed: body.prescribed().unwrap(),
             contacts,
         }
     }

@@ -55,7 +55,8 @@ fn named_programs(text: &str) -> Vec<[PathBuf; 2]> {
         ("--bench", "benches"),
         ("--example", "examples"),
     ] {
-        let rest = text.split(&format!("{option} ")).skip(1);
+        let option = format!("{option} ");
+        let rest = text.split(option.as_str()).skip(1);
         let names = rest.filter_map(|rest| {
             rest.split(|c: char| !c.is_alphanumeric() && c != '_')
                 .next()

@@ -1,6 +1,5 @@
 //! A scene as far as it goes: read, checked, and solved if it is small.
 
-use dpana::body::{free_modes, prescribed, stiffness};
 use dpana::scene::{MeshSource, Scene};
 use dpana::{Error, Solution, Status};
 
@@ -57,7 +56,7 @@ pub fn attempt(mut scene: Scene) -> Result<(), Error> {
         return Ok(());
     }
     for body in &mechanics.bodies {
-        let _ = free_modes(body, &prescribed(body)?);
+        let _ = body.free_motions()?;
     }
     if let Some(sweeps) = &mut scene.settings.max_sweeps {
         *sweeps = (*sweeps).min(SWEEPS);
@@ -81,7 +80,8 @@ fn judge(solution: &Solution, tolerance: f64) {
         let bodies = solution.bodies().iter().zip(solution.displacements());
         for (balance, (body, displacement)) in solution.balances().iter().zip(bodies) {
             // A body that moves without deforming carries round-off, and nothing else.
-            let elastic = largest(stiffness(body).data()) * largest(displacement);
+            let stiffness = body.stiffness().expect("a solved body is sound");
+            let elastic = largest(stiffness.data()) * largest(displacement);
             let sound = balance.equilibrium.scaled <= BALANCE
                 || balance.equilibrium.value <= ROUNDING * elastic;
             assert!(
