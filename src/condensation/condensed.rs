@@ -33,7 +33,7 @@ impl Condensed {
     ///
     /// # Errors
     ///
-    /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
+    /// What the check of a body, its supports and
     /// [`ContactSurface::new`] refuse, a stiffness that is not positive definite. A rigid
     /// motion that the supports leave free is none: see [`ContactProblem::floating`].
     pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {

@@ -35,7 +35,7 @@ pub struct ReportedHalving {
     pub resolved: bool,
 }
 
-/// Work and energy, in joule; see [`kkt::Ledger`].
+/// Work and energy, in joule (K9).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ReportedLedger {
     /// Work of the given forces.
