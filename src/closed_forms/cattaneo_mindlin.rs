@@ -7,7 +7,7 @@ use crate::error::Error;
 /// Shear of a contact that sticks in its middle and slips around it (E5).
 ///
 /// The load P comes first and stays, then Q grows. It is exact for bodies that do not couple
-/// ([`dundurs_beta`](super::dundurs_beta) zero), for spheres only if also ν = 0.
+/// ([`Elastic::dundurs_beta`](super::Elastic::dundurs_beta) zero), for spheres only if also ν = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CattaneoMindlin {
     /// Half-width or radius a of the contact, in metre.
@@ -56,7 +56,7 @@ impl CattaneoMindlin {
 
 /// How far a point contact's bodies move past each other far from it, along Q, in metre (E5):
 /// Mindlin's δ_t, for a tangential load Q in newton and the bodies'
-/// [`tangential_compliance`](super::tangential_compliance) Θ in 1/Pa.
+/// [`Elastic::tangential_compliance`](super::Elastic::tangential_compliance) Θ in 1/Pa.
 ///
 /// # Errors
 ///

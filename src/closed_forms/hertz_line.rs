@@ -9,13 +9,13 @@ use crate::error::Error;
 /// logarithm of the size of the bodies.
 ///
 /// ```
-/// use dpana::closed_forms::{Elastic, HertzLine, contact_modulus};
+/// use dpana::closed_forms::{Elastic, HertzLine};
 ///
 /// # fn main() -> Result<(), dpana::Error> {
 /// // A steel cylinder of radius 50 mm on aluminium, 35 kN per mm (NAFEMS 2006, no. 1); mm, N, MPa.
 /// let steel = Elastic { young: 210e3, poisson: 0.3 };
 /// let aluminium = Elastic { young: 70e3, poisson: 0.3 };
-/// let hertz = HertzLine::new(35e3, 50.0, contact_modulus(steel, Some(aluminium))?)?;
+/// let hertz = HertzLine::new(35e3, 50.0, steel.contact_modulus(Some(aluminium))?)?;
 /// assert!((hertz.half_width - 6.21463).abs() < 1e-5);
 /// assert!((hertz.peak - 3585.36).abs() < 1e-2);
 /// # Ok(())

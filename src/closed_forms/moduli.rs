@@ -20,6 +20,54 @@ impl Elastic {
         Ok(self)
     }
 
+    /// Composite modulus E* of a body on another one, or on a rigid one (`None`), in pascal (E1).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] for a material that is none.
+    pub fn contact_modulus(self, other: Option<Self>) -> Result<f64, Error> {
+        let mut compliance = self.check()?.plane_compliance();
+        if let Some(other) = other {
+            compliance += other.check()?.plane_compliance();
+        }
+        Ok(1.0 / compliance)
+    }
+
+    /// Tangential compliance Θ of a body on another one, or on a rigid one (`None`), in 1/Pa (E1).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] for a material that is none.
+    pub fn tangential_compliance(self, other: Option<Self>) -> Result<f64, Error> {
+        let of = |material: Elastic| -> Result<f64, Error> {
+            let material = material.check()?;
+            Ok((2.0 - material.poisson) * material.shear_compliance())
+        };
+        Ok(of(self)? + other.map_or(Ok(0.0), of)?)
+    }
+
+    /// Dundurs' β, how far pressure makes slip and friction a gap (E2); dimensionless, positive where
+    /// the first body gives more sideways. It is zero for two bodies of one material, and
+    /// `(1 − 2ν)/(2(1 − ν))` against a rigid one (`None`).
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] for a material that is none.
+    pub fn dundurs_beta(self, other: Option<Self>) -> Result<f64, Error> {
+        let terms = |material: Elastic| {
+            let compliance = material.shear_compliance();
+            let poisson = material.poisson;
+            [1.0 - 2.0 * poisson, 1.0 - poisson].map(|factor| factor * compliance)
+        };
+        let [mut across, mut along] = terms(self.check()?);
+        if let Some(other) = other {
+            let [of_across, of_along] = terms(other.check()?);
+            across -= of_across;
+            along += of_along;
+        }
+        Ok(across / (2.0 * along))
+    }
+
     /// `(1 − ν²)/E`, in 1/Pa.
     fn plane_compliance(self) -> f64 {
         (1.0 - self.poisson * self.poisson) / self.young
@@ -29,32 +77,6 @@ impl Elastic {
     pub(super) fn shear_compliance(self) -> f64 {
         2.0 * (1.0 + self.poisson) / self.young
     }
-}
-
-/// Composite modulus E* of a body on another one, or on a rigid one (`None`), in pascal (E1).
-///
-/// # Errors
-///
-/// [`Error::OutOfRange`] for a material that is none.
-pub fn contact_modulus(one: Elastic, other: Option<Elastic>) -> Result<f64, Error> {
-    let mut compliance = one.check()?.plane_compliance();
-    if let Some(other) = other {
-        compliance += other.check()?.plane_compliance();
-    }
-    Ok(1.0 / compliance)
-}
-
-/// Tangential compliance Θ of a body on another one, or on a rigid one (`None`), in 1/Pa (E1).
-///
-/// # Errors
-///
-/// [`Error::OutOfRange`] for a material that is none.
-pub fn tangential_compliance(one: Elastic, other: Option<Elastic>) -> Result<f64, Error> {
-    let of = |material: Elastic| -> Result<f64, Error> {
-        let material = material.check()?;
-        Ok((2.0 - material.poisson) * material.shear_compliance())
-    };
-    Ok(of(one)? + other.map_or(Ok(0.0), of)?)
 }
 
 /// Composite radius R of two convex surfaces, in metre (E1); infinite for a plane, negative for a
@@ -70,28 +92,6 @@ pub fn contact_radius(one: f64, other: f64) -> Result<f64, Error> {
     };
     let curvature = curved("one", one)? + curved("other", other)?;
     Ok(1.0 / positive("1/one + 1/other", curvature)?)
-}
-
-/// Dundurs' β, how far pressure makes slip and friction a gap (E2); dimensionless, positive where
-/// the first body gives more sideways. It is zero for two bodies of one material, and
-/// `(1 − 2ν)/(2(1 − ν))` against a rigid one (`None`).
-///
-/// # Errors
-///
-/// [`Error::OutOfRange`] for a material that is none.
-pub fn dundurs_beta(one: Elastic, other: Option<Elastic>) -> Result<f64, Error> {
-    let terms = |material: Elastic| {
-        let compliance = material.shear_compliance();
-        let poisson = material.poisson;
-        [1.0 - 2.0 * poisson, 1.0 - poisson].map(|factor| factor * compliance)
-    };
-    let [mut across, mut along] = terms(one.check()?);
-    if let Some(other) = other {
-        let [of_across, of_along] = terms(other.check()?);
-        across -= of_across;
-        along += of_along;
-    }
-    Ok(across / (2.0 * along))
 }
 
 #[cfg(test)]
@@ -112,11 +112,11 @@ mod tests {
     #[test]
     fn steel_on_aluminium_has_the_modulus_of_the_benchmark() {
         // NAFEMS Konter 2006 no. 1: E* = 57692.31 MPa.
-        let found = contact_modulus(STEEL, Some(ALUMINIUM)).unwrap();
+        let found = STEEL.contact_modulus(Some(ALUMINIUM)).unwrap();
         // Half of the last digit.
         assert_close(found, 57692.31, 1e-7);
         assert_close(
-            contact_modulus(STEEL, None).unwrap(),
+            STEEL.contact_modulus(None).unwrap(),
             210e3 / (1.0 - 0.09),
             1e-15,
         );
@@ -129,9 +129,9 @@ mod tests {
             young: 2.0,
             poisson: 0.0,
         };
-        assert_close(tangential_compliance(cork, Some(cork)).unwrap(), 4.0, 1e-15);
+        assert_close(cork.tangential_compliance(Some(cork)).unwrap(), 4.0, 1e-15);
         let steel = 1.7 * 2.6 / 210e3;
-        assert_close(tangential_compliance(STEEL, None).unwrap(), steel, 1e-14);
+        assert_close(STEEL.tangential_compliance(None).unwrap(), steel, 1e-14);
     }
 
     #[test]
@@ -144,9 +144,9 @@ mod tests {
 
     #[test]
     fn coupling_vanishes_for_one_material_and_changes_sign_with_the_order() {
-        assert_eq!(dundurs_beta(STEEL, Some(STEEL)).unwrap(), 0.0);
-        let found = dundurs_beta(STEEL, Some(ALUMINIUM)).unwrap();
-        assert_eq!(dundurs_beta(ALUMINIUM, Some(STEEL)).unwrap(), -found);
+        assert_eq!(STEEL.dundurs_beta(Some(STEEL)).unwrap(), 0.0);
+        let found = STEEL.dundurs_beta(Some(ALUMINIUM)).unwrap();
+        assert_eq!(ALUMINIUM.dundurs_beta(Some(STEEL)).unwrap(), -found);
         // One ν on both sides: (1−2ν)/(2(1−ν)) · (E₂ − E₁)/(E₂ + E₁) = 2/7 · (−1/2).
         assert_close(found, -1.0 / 7.0, 1e-14);
     }
@@ -157,20 +157,20 @@ mod tests {
             young: 210e15,
             poisson: 0.1,
         };
-        let rigid = dundurs_beta(STEEL, None).unwrap();
+        let rigid = STEEL.dundurs_beta(None).unwrap();
         assert_close(rigid, 0.4 / 1.4, 1e-15);
         // A million million times as stiff.
-        assert_close(dundurs_beta(STEEL, Some(stiff)).unwrap(), rigid, 1e-11);
+        assert_close(STEEL.dundurs_beta(Some(stiff)).unwrap(), rigid, 1e-11);
     }
 
     #[test]
     fn a_material_that_is_none_is_refused() {
         for (young, poisson) in [(0.0, 0.3), (f64::NAN, 0.3), (1.0, 0.6), (1.0, f64::NAN)] {
             let none = Elastic { young, poisson };
-            assert!(contact_modulus(none, None).is_err());
-            assert!(tangential_compliance(none, Some(STEEL)).is_err());
-            assert!(tangential_compliance(STEEL, Some(none)).is_err());
-            assert!(dundurs_beta(STEEL, Some(none)).is_err());
+            assert!(none.contact_modulus(None).is_err());
+            assert!(none.tangential_compliance(Some(STEEL)).is_err());
+            assert!(STEEL.tangential_compliance(Some(none)).is_err());
+            assert!(STEEL.dundurs_beta(Some(none)).is_err());
         }
     }
 }

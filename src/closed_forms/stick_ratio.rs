@@ -10,7 +10,7 @@ use super::range::{positive, within};
 use crate::error::Error;
 
 /// Coefficient of friction with which a part c/a of a plane contact sticks (E8); β > 0 is the
-/// amount of [`dundurs_beta`](super::dundurs_beta).
+/// amount of [`Elastic::dundurs_beta`](super::Elastic::dundurs_beta).
 ///
 /// # Errors
 ///

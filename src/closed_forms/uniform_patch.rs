@@ -11,7 +11,7 @@ use crate::error::Error;
 ///
 /// [`Error::OutOfRange`] for a material or a pressure that is none.
 pub fn uniform_strain(material: Elastic, pressure: [f64; 2]) -> Result<[f64; 2], Error> {
-    let modulus = super::contact_modulus(material, None)?;
+    let modulus = material.contact_modulus(None)?;
     for value in pressure {
         within("pressure", value, value.is_finite(), "a finite number")?;
     }

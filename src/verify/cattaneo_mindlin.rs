@@ -8,7 +8,7 @@ use super::ladder::{Ladder, Measured};
 use super::scenes::{STEEL, body, hold, pair};
 use crate::alternation::Status;
 use crate::body::{CellKind, Mesh, rectangle};
-use crate::closed_forms::{CattaneoMindlin, HertzLine, contact_modulus};
+use crate::closed_forms::{CattaneoMindlin, HertzLine};
 use crate::error::Error;
 use crate::pipeline::solve_steps;
 use crate::report::{Criterion, Report, VerifiedQuantity};
@@ -191,7 +191,7 @@ impl Ladders {
 }
 
 fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
-    let modulus = contact_modulus(STEEL, Some(STEEL))?;
+    let modulus = STEEL.contact_modulus(Some(STEEL))?;
     let mut ladders = Ladders::new();
     let meshes: &[f64] = if quick {
         &[10.0, 20.0, 40.0]

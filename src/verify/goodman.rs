@@ -7,7 +7,7 @@ use super::hertz_line::{half_width, parabola};
 use super::ladder::{Ladder, Measured};
 use super::scenes::{body, hold, on, plane};
 use crate::alternation::Status;
-use crate::closed_forms::{Elastic, dundurs_beta, friction_of_stick_line};
+use crate::closed_forms::{Elastic, friction_of_stick_line};
 use crate::error::Error;
 use crate::pipeline::solve_steps;
 use crate::report::{Criterion, Report, VerifiedQuantity};
@@ -74,7 +74,7 @@ fn stick_ratio(report: &Report) -> f64 {
 }
 
 fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
-    let beta = dundurs_beta(MATERIAL, None)?;
+    let beta = MATERIAL.dundurs_beta(None)?;
     let friction = friction_of_stick_line(beta, STICK)?;
     let mut uncoupled = Ladder::new("c/a, mean over the path");
     let mut coupled = Ladder::new("the same, coupled");

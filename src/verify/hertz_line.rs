@@ -5,7 +5,7 @@ use super::growing::growing;
 use super::ladder::{Ladder, Measured};
 use super::scenes::{STEEL, body, hold, on, plane, solved};
 use crate::body::{CellKind, Mesh, rectangle};
-use crate::closed_forms::{HertzLine, contact_modulus};
+use crate::closed_forms::HertzLine;
 use crate::error::Error;
 use crate::report::{Contact, Criterion, Report, VerifiedQuantity};
 
@@ -150,7 +150,7 @@ impl Ladders {
 
 /// All loads on one mesh, and whether all are certified.
 fn loaded(cells: f64, size: f64) -> Result<(Vec<Compared>, bool), Error> {
-    let modulus = contact_modulus(STEEL, None)?;
+    let modulus = STEEL.contact_modulus(None)?;
     let (mut all, mut settled) = (Vec::new(), true);
     for lowered in lowered(RADIUS, size) {
         let half = body("half", parabola(cells, RADIUS, size)?, STEEL);

@@ -4,7 +4,7 @@ use super::Entry;
 use super::ladder::{Ladder, Measured};
 use super::scenes::{STEEL, body, hold, on, solved};
 use crate::body::{CellKind, box_mesh, graded};
-use crate::closed_forms::{Boussinesq, Elastic, HertzSphere, contact_modulus};
+use crate::closed_forms::{Boussinesq, Elastic, HertzSphere};
 use crate::error::Error;
 use crate::report::{Criterion, Report, VerifiedQuantity};
 use crate::scene::{Scene, SceneObstacle, SceneSupport};
@@ -74,7 +74,7 @@ fn contact_radius(report: &Report) -> f64 {
 }
 
 fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
-    let modulus = contact_modulus(MATERIAL, None)?;
+    let modulus = MATERIAL.contact_modulus(None)?;
     let meshes: &[usize] = if quick {
         &[7, 10, 14, 20]
     } else {

@@ -8,7 +8,7 @@ use super::hertz_line::half_width;
 use super::ladder::{Ladder, Measured};
 use super::scenes::{STEEL, body, hold, pair, solved};
 use crate::body::{CellKind, Mesh, rectangle};
-use crate::closed_forms::{Elastic, HertzLine, contact_modulus};
+use crate::closed_forms::{Elastic, HertzLine};
 use crate::error::Error;
 use crate::report::{Criterion, Report, VerifiedQuantity};
 use crate::scene::Scene;
@@ -80,7 +80,7 @@ fn loaded(fine: f64, friction: f64) -> Result<(Report, f64, bool), Error> {
 }
 
 fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
-    let hertz = HertzLine::new(LOAD, RADIUS, contact_modulus(STEEL, Some(ALUMINIUM))?)?;
+    let hertz = HertzLine::new(LOAD, RADIUS, STEEL.contact_modulus(Some(ALUMINIUM))?)?;
     let meshes: &[f64] = if quick {
         &[1.0, 0.5, 0.25]
     } else {

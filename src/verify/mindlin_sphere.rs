@@ -10,10 +10,7 @@ use super::ladder::{Ladder, Measured};
 use super::scenes::{body, hold, pair};
 use crate::alternation::Status;
 use crate::body::{CellKind, Group, Mesh, box_mesh};
-use crate::closed_forms::{
-    CattaneoMindlin, Elastic, HertzSphere, contact_modulus, mindlin_displacement,
-    tangential_compliance,
-};
+use crate::closed_forms::{CattaneoMindlin, Elastic, HertzSphere, mindlin_displacement};
 use crate::error::Error;
 use crate::pipeline::solve_steps;
 use crate::report::{Criterion, Report, VerifiedQuantity};
@@ -178,8 +175,8 @@ fn scene(cells: f64, path: &[Moved]) -> Result<Scene, Error> {
 
 fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
     let bodies = Bodies {
-        modulus: contact_modulus(MATERIAL, Some(MATERIAL))?,
-        compliance: tangential_compliance(MATERIAL, Some(MATERIAL))?,
+        modulus: MATERIAL.contact_modulus(Some(MATERIAL))?,
+        compliance: MATERIAL.tangential_compliance(Some(MATERIAL))?,
     };
     let path = bodies.path()?;
     let meshes: &[f64] = if quick { &[3.0, 4.5] } else { &[3.0, 4.5, 6.0] };

@@ -4,7 +4,7 @@ use super::Entry;
 use super::hertz_line::{Ladders, SIZE, compared, lowered, meshes, parabola};
 use super::scenes::{STEEL, body, hold, pair, solved};
 use crate::body::{CellKind, Mesh};
-use crate::closed_forms::{contact_modulus, contact_radius};
+use crate::closed_forms::contact_radius;
 use crate::error::Error;
 use crate::report::VerifiedQuantity;
 use crate::scene::Scene;
@@ -46,7 +46,7 @@ fn scene(cells: f64, lowered: f64) -> Result<Scene, Error> {
 }
 
 fn measure(quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {
-    let modulus = contact_modulus(STEEL, Some(STEEL))?;
+    let modulus = STEEL.contact_modulus(Some(STEEL))?;
     let radius = contact_radius(RADII[0], RADII[1])?;
     let mut ladders = Ladders::new();
     for &cells in meshes(quick) {
