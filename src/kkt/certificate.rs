@@ -45,6 +45,7 @@ impl Worst {
 
 /// Every law on the original problem, measured; infinite where a state is not finite.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Certificate {
     /// Natural-map residual, relative to the reaction with a load-scale floor.
     pub natural_map: f64,
@@ -98,6 +99,7 @@ impl Certificate {
 
 /// A contact state and its certificate.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Verdict {
     /// Displacement `u = û + G t + R α` per unknown, in metre.
     pub displacement: Vec<f64>,

@@ -10,6 +10,7 @@ use crate::kkt;
 ///
 /// A residual that is infinite (the state is not finite) is written as `null`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedCertificate {
     /// Natural-map residual, relative to the reaction: the stopping test.
     pub natural_map: f64,
@@ -44,6 +45,7 @@ pub struct ReportedCertificate {
 
 /// A residual with the contact where it is worst.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedWorst {
     /// Size of the violation in physical units.
     pub value: f64,
@@ -66,6 +68,7 @@ pub struct ReportedWorstNode {
 
 /// Equilibrium of a whole body, measured; see [`kkt::Balance`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedBalance {
     /// Name of the body.
     pub name: String,

@@ -20,6 +20,7 @@ pub enum ReportedContactState {
 
 /// One contact; vectors in global axes with the bodies' dimension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Contact {
     /// The body it belongs to, as an index into the certificate's `bodies`.
     pub body: usize,

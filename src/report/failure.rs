@@ -7,6 +7,7 @@ use super::motion::{ReportedMotion, motions, sentence, significant};
 
 /// A motion that no contact resists while the loads work on it, checked by the judge.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedFailure {
     /// In words: which body moves how, and what force is missing.
     pub words: String,

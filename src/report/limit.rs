@@ -8,6 +8,7 @@ use super::motion::{ReportedMotion, sentence, significant};
 
 /// The limits of a scene's loads.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Limits {
     /// Title of the scene.
     pub title: String,
@@ -19,6 +20,7 @@ pub struct Limits {
 
 /// How far one load can grow.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct LoadLimit {
     /// Where the scene says so, such as `bodies[0].loads[1]`.
     pub place: String,

@@ -69,7 +69,7 @@ pub use motion::ReportedMotion;
 pub(crate) use motion::motions;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
-pub use shortfall::{Reason, ReportedShortfall};
+pub use shortfall::ReportedShortfall;
 pub(crate) use step::ReportedHalving;
 pub use step::{ReportedLedger, ReportedStep};
 #[cfg(feature = "cli")]
@@ -93,6 +93,7 @@ use crate::{alternation, kkt};
 
 /// A solved scene, as it is reported.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Report {
     /// Title of the scene.
     pub title: String,
@@ -156,6 +157,7 @@ impl ReportedStatus {
 
 /// Size of the problem.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct Size {
     /// Dimension of the bodies, 2 or 3.
     pub dimension: usize,

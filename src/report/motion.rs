@@ -10,6 +10,7 @@ const NOTHING: f64 = 1e-3;
 
 /// How a body, or one unconnected part of it, moves: `translation + rotation × (x − centre)`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedMotion {
     /// Name of the body.
     pub body: String,

@@ -25,6 +25,7 @@ const INSIDE: [f64; 2] = [0.5, 2.0];
 
 /// What the eye would look for in pressure and stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Quality {
     /// Part of the contact pressure that alternates from contact to contact (R2): far below 1 where
     /// the mesh resolves the pressure; `null` where no contact is well inside the contact zone.

@@ -8,6 +8,7 @@ use crate::alternation::{Outcome, Status};
 
 /// Why a solve ended as it did, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedShortfall {
     /// Why, by a name that stays.
     pub reason: Reason,

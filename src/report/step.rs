@@ -6,6 +6,7 @@ use crate::kkt;
 
 /// A load step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedStep {
     /// From 1.
     pub number: usize,

@@ -6,6 +6,7 @@ use super::{Cell, Quality, ReportedCertificate, ReportedSeconds, ReportedStatus,
 
 /// A scene over meshes, tolerances, friction and loops.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Study {
     /// Title of the scene.
     pub title: String,
@@ -104,6 +105,7 @@ pub enum Part {
 
 /// One loop on one mesh to one tolerance.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StudiedRun {
     /// What it is held against.
     pub part: Part,

@@ -11,6 +11,7 @@ use crate::kkt::ContactStatus;
 
 /// Totals over contacts; vectors in global axes, forces act on the first surface of a pair.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Totals {
     /// Contacts without reaction.
     pub open: usize,
@@ -39,6 +40,7 @@ pub struct Totals {
 
 /// Totals over the contacts of one pair.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PairTotals {
     /// Where the scene says so, such as `contacts[0]`.
     pub place: String,

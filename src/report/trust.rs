@@ -7,6 +7,7 @@ use crate::kkt::ContactStatus;
 
 /// What other starts led to, and how much friction the alternation takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Trust {
     /// In words.
     pub words: String,

@@ -24,6 +24,7 @@ pub struct StageWork {
 
 /// Counts over the whole solve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedWork {
     /// Factorisations of the body's stiffness.
     pub factorisations: usize,
@@ -49,6 +50,7 @@ pub struct ReportedWork {
 
 /// Wall time by stage in the order of the pipeline, in second.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedSeconds {
     /// Stiffness and loads.
     pub assembly: f64,
@@ -78,6 +80,7 @@ pub struct ReportedSeconds {
 
 /// One sweep.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReportedSweep {
     /// The judge's residual at its end.
     pub residual: f64,

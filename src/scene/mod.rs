@@ -80,6 +80,7 @@ pub struct Scene {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object of settings")]
+#[non_exhaustive]
 pub struct SceneSettings {
     /// Largest natural-map residual that counts as solved, from 1e-15 to 1e-2.
     #[cfg_attr(feature = "cli", schemars(range(min = 1e-15, max = 1e-2)))]
@@ -94,6 +95,7 @@ pub struct SceneSettings {
 
 /// A scene in the terms of mechanics: groups resolved, facets outward, values checked.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Mechanics {
     /// The elastic bodies.
     pub bodies: Vec<Body>,
