@@ -81,6 +81,7 @@ pub use study::study;
 pub use verify::verify;
 
 #[doc = include_str!("method.md")]
+#[doc = include_str!("constants.md")]
 pub mod method {}
 
 /// Dense matrices: what an operator and free modes are made of.

@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The pages, below the crate's folder.
-const PAGES: [&str; 6] = [
+const PAGES: [&str; 7] = [
     "README.md",
     "benches/README.md",
     "examples/README.md",
     "tests/README.md",
     "tests/data/README.md",
     "src/method.md",
+    "src/constants.md",
 ];
 
 /// Most lines of the front page.

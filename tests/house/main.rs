@@ -9,6 +9,7 @@ mod square;
 
 mod architecture;
 mod cases;
+mod constants;
 mod links;
 mod only_what_a_scene_needs;
 mod picture;
