@@ -11,6 +11,7 @@
 use std::collections::HashMap;
 use std::fmt::Write;
 
+use super::digits::number;
 use super::svg::{escaped, plain, text};
 use super::{Report, ReportedContactState};
 use crate::body::{Body, Facet};
@@ -70,7 +71,8 @@ impl Picture<'_> {
         };
         let marks = self.marks(&positions, height);
         let ends = marks.iter().map(|mark| mark.tip);
-        let view = View::around(positions.iter().flatten().copied().chain(ends));
+        let words = self.report.title.chars().count();
+        let view = View::around(positions.iter().flatten().copied().chain(ends), words);
         let mut svg = view.open(&self.report.title);
         for obstacle in self.obstacles {
             draw_obstacle(&mut svg, &view, obstacle);
@@ -189,7 +191,7 @@ impl Picture<'_> {
         };
         let words = format!(
             "peak pressure {}{units}, displacements × {}",
-            plain(self.report.totals.peak_pressure),
+            number(self.report.totals.peak_pressure),
             plain(factor)
         );
         text(svg, [width - MARGIN, y], "end", &words);
@@ -250,7 +252,8 @@ struct View {
 }
 
 impl View {
-    fn around(points: impl Iterator<Item = [f64; 2]>) -> Self {
+    /// Around points, and wide enough for the legend and a title of so many characters.
+    fn around(points: impl Iterator<Item = [f64; 2]>, title: usize) -> Self {
         let bounds = Bounds::around(points);
         let extent = bounds.extent();
         let scale = (SIZE[0] / extent[0]).min(SIZE[1] / extent[1]);
@@ -258,8 +261,10 @@ impl View {
         Self {
             bounds,
             scale,
-            // Wide enough for the legend whatever is drawn.
-            size: [drawn[0].max(640.0), drawn[1] + TITLE + LEGEND],
+            size: [
+                drawn[0].max(640.0).max(2.0 * MARGIN + 8.6 * title as f64),
+                drawn[1] + TITLE + LEGEND,
+            ],
         }
     }
 

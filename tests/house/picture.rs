@@ -44,7 +44,10 @@ fn a_uniform_pressure_stands_as_a_rectangle_of_a_sixth_of_the_diagonal() {
     let svg = solve(&strip()).unwrap().to_svg().unwrap();
     assert!(svg.contains("<title>a &lt; b</title>") && svg.ends_with("</svg>\n"));
     // ε = p/E = 0.005 and u = 0.005 m at the top; 20 is the largest round factor that keeps it below √5/12 m.
-    assert!(svg.contains("peak pressure 5, displacements × 20"), "{svg}");
+    assert!(
+        svg.contains("peak pressure 5.00000, displacements × 20"),
+        "{svg}"
+    );
     // Three contacts that slide, none that sticks, and one mark of each kind in the legend.
     assert_eq!(svg.matches("fill=\"#d55e00\"").count(), 4);
     assert_eq!(svg.matches("fill=\"#0072b2\"").count(), 1);
