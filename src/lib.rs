@@ -24,6 +24,7 @@
 //! | cone programs | [`cone`] | the two half-steps, normal and friction |
 //! | limit analysis | [`limit`](mod@limit) | whether contact can hold the bodies at all |
 //! | outer loop | [`alternation`] | reactions, by sweeps and a Newton finish |
+//! | half-space | [`half_space`] | a contact per cell of a grid, by convolution, with loop and judge of its own |
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
 //! | closed forms | [`closed_forms`] | answers that need no mesh |
@@ -55,6 +56,7 @@ pub mod cone;
 pub mod contact;
 pub mod deck;
 mod error;
+pub mod half_space;
 pub mod kkt;
 pub mod limit;
 pub mod mesh_file;

@@ -17,6 +17,7 @@ const MAY_IMPORT: [(&str, &[&str]); 19] = [
     ("condensation", &["body", "contact", "problem", "error"]),
     ("cone", &["problem", "limit", "error"]),
     ("limit", &["problem", "error"]),
+    ("half_space", &["error"]),
     (
         "kkt",
         &["body", "contact", "problem", "condensation", "error"],

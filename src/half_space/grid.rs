@@ -1,0 +1,83 @@
+//! The grid of rectangles that carries the tractions.
+
+use crate::error::{Error, check_finite};
+
+/// Most cells of a grid: beyond, one solve would need more than some 16 GiB.
+const MOST_CELLS: usize = 1 << 25;
+
+/// `cells[0] × cells[1]` equal rectangles; cell `i + cells[0] j` is the `i`-th along x in row `j`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grid {
+    /// Number of cells along x and y.
+    pub cells: [usize; 2],
+    /// Sides of a cell, in metre.
+    pub spacing: [f64; 2],
+}
+
+impl Grid {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] for no cells or more than 2²⁵, and for a side that is not positive;
+    /// [`Error::NotFinite`].
+    pub fn new(cells: [usize; 2], spacing: [f64; 2]) -> Result<Self, Error> {
+        check_finite("grid.spacing", &spacing)?;
+        let refuse = |place: &str, at: usize, value: f64, accepted| {
+            Err(Error::OutOfRange {
+                place: format!("grid.{place}[{at}]"),
+                value,
+                accepted,
+            })
+        };
+        for axis in 0..2 {
+            if cells[axis] == 0 || cells[axis] > MOST_CELLS {
+                let accepted = "from 1 to 33554432 cells";
+                return refuse("cells", axis, cells[axis] as f64, accepted);
+            }
+            if spacing[axis] <= 0.0 {
+                return refuse("spacing", axis, spacing[axis], "spacing > 0");
+            }
+        }
+        if cells[0].saturating_mul(cells[1]) > MOST_CELLS {
+            let accepted = "at most 33554432 cells in all";
+            return refuse("cells", 1, cells[1] as f64, accepted);
+        }
+        Ok(Self { cells, spacing })
+    }
+
+    /// Number of cells.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.cells[0] * self.cells[1]
+    }
+
+    /// Never: a grid has a cell.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Area of a cell, in m².
+    #[must_use]
+    pub fn cell_area(&self) -> f64 {
+        self.spacing[0] * self.spacing[1]
+    }
+
+    /// Centre of a cell from the middle of the grid, in metre.
+    #[must_use]
+    pub fn position(&self, cell: usize) -> [f64; 2] {
+        let number = [cell % self.cells[0], cell / self.cells[0]];
+        let along = |axis: usize| {
+            (number[axis] as f64 - 0.5 * (self.cells[axis] as f64 - 1.0)) * self.spacing[axis]
+        };
+        [along(0), along(1)]
+    }
+
+    /// A value at every cell, from its position.
+    pub fn sample(&self, value: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
+        (0..self.len())
+            .map(|cell| value(self.position(cell)))
+            .collect()
+    }
+}

@@ -1,0 +1,197 @@
+//! The contact problem of a half-space: plain numbers, one contact per cell.
+
+use std::sync::Arc;
+
+use super::operator::{HalfSpace, Surroundings};
+use super::run::HalfSpaceOutcome;
+use super::vectors::{Pair, zero_pair};
+use crate::error::{Error, check_finite, check_length};
+
+/// How the other side is pressed on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Press {
+    /// By how much it comes closer, in metre.
+    Approach(f64),
+    /// With what force, `Σ −t_N`, in N; the approach is a result.
+    Load(f64),
+}
+
+/// How the other side is dragged along.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Drag {
+    /// By how much it moves along x and y, in metre.
+    Shift([f64; 2]),
+    /// What force it gives to the half-space along x and y, `Σ t_T`, in N; the shift is a result.
+    Force([f64; 2]),
+}
+
+/// Find reactions `t` on the cells and displacements `u = û + G t` with (L1)–(L3).
+#[derive(Clone, Debug)]
+pub struct HalfSpaceProblem {
+    pub(super) operator: Arc<HalfSpace>,
+    pub(super) friction: Vec<f64>,
+    pub(super) initial_gap: Vec<f64>,
+    pub(super) press: Press,
+    pub(super) drag: Drag,
+    pub(super) reference: Pair,
+}
+
+impl HalfSpaceProblem {
+    /// A problem that starts without slip and without drag.
+    ///
+    /// - `initial_gap`: in metre per cell, before loading and without approach;
+    /// - `friction`: coefficient `μ ≥ 0`, one per cell or one for all.
+    ///
+    /// # Errors
+    ///
+    /// A length that does not fit, a NaN or infinity, a negative coefficient, a load that pulls, an
+    /// approach on a periodic surface, whose mean no pressure moves.
+    pub fn new(
+        operator: Arc<HalfSpace>,
+        initial_gap: Vec<f64>,
+        friction: &[f64],
+        press: Press,
+    ) -> Result<Self, Error> {
+        let cells = operator.grid().len();
+        check_length("initial_gap", cells, initial_gap.len())?;
+        check_finite("initial_gap", &initial_gap)?;
+        check_friction(friction)?;
+        let friction = match friction {
+            [all] => vec![*all; cells],
+            each => each.to_vec(),
+        };
+        check_length("friction", cells, friction.len())?;
+        check_press(press, operator.surroundings())?;
+        Ok(Self {
+            friction,
+            initial_gap,
+            press,
+            drag: Drag::Shift([0.0; 2]),
+            reference: zero_pair(cells),
+            operator,
+        })
+    }
+
+    /// The same problem, dragged.
+    ///
+    /// # Errors
+    ///
+    /// A NaN or infinity.
+    pub fn dragged(mut self, drag: Drag) -> Result<Self, Error> {
+        match drag {
+            Drag::Shift(shift) => check_finite("shift", &shift)?,
+            Drag::Force(force) => check_finite("force", &force)?,
+        }
+        self.drag = drag;
+        Ok(self)
+    }
+
+    /// The same problem, pressed otherwise.
+    ///
+    /// # Errors
+    ///
+    /// As [`HalfSpaceProblem::new`].
+    pub fn pressed(mut self, press: Press) -> Result<Self, Error> {
+        check_press(press, self.operator.surroundings())?;
+        self.press = press;
+        Ok(self)
+    }
+
+    /// The same problem, whose slip counts from `reference` on: relative displacement along x and y
+    /// that the contacts had before, in metre per cell (C13).
+    ///
+    /// # Errors
+    ///
+    /// A length that does not fit, a NaN or infinity.
+    pub fn after(mut self, reference: [Vec<f64>; 2]) -> Result<Self, Error> {
+        for (part, place) in reference.iter().zip(["reference[0]", "reference[1]"]) {
+            check_length(place, self.operator.grid().len(), part.len())?;
+            check_finite(place, part)?;
+        }
+        self.reference = reference;
+        Ok(self)
+    }
+
+    /// The same problem after a solved one: slip counts from where that left the contacts, and open
+    /// ones begin a new slip where they stand.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if the outcome is not of the problem's cells.
+    pub fn following(self, outcome: &HalfSpaceOutcome) -> Result<Self, Error> {
+        let total = [0, 1].map(|axis| {
+            let pairs = outcome.slip[axis].iter().zip(&self.reference[axis]);
+            pairs.map(|(slip, before)| slip + before).collect()
+        });
+        self.after(total)
+    }
+
+    /// The operator `G`.
+    #[must_use]
+    pub fn operator(&self) -> &Arc<HalfSpace> {
+        &self.operator
+    }
+
+    /// Gap before loading, in metre per cell.
+    #[must_use]
+    pub fn initial_gap(&self) -> &[f64] {
+        &self.initial_gap
+    }
+
+    /// Coefficient of friction per cell.
+    #[must_use]
+    pub fn friction(&self) -> &[f64] {
+        &self.friction
+    }
+
+    /// How the other side is pressed on.
+    #[must_use]
+    pub fn press(&self) -> Press {
+        self.press
+    }
+
+    /// How the other side is dragged.
+    #[must_use]
+    pub fn drag(&self) -> Drag {
+        self.drag
+    }
+
+    /// Whether any contact has friction.
+    pub(super) fn has_friction(&self) -> bool {
+        self.friction.iter().any(|&mu| mu > 0.0)
+    }
+}
+
+fn check_friction(friction: &[f64]) -> Result<(), Error> {
+    check_finite("friction", friction)?;
+    match friction.iter().position(|&mu| mu < 0.0) {
+        None => Ok(()),
+        Some(at) => Err(Error::OutOfRange {
+            place: format!("friction[{at}]"),
+            value: friction[at],
+            accepted: "friction >= 0",
+        }),
+    }
+}
+
+fn check_press(press: Press, surroundings: Surroundings) -> Result<(), Error> {
+    let (place, value) = match press {
+        Press::Approach(approach) => ("approach", approach),
+        Press::Load(load) => ("load", load),
+    };
+    check_finite(place, &[value])?;
+    match press {
+        Press::Load(load) if load < 0.0 => Err(Error::OutOfRange {
+            place: place.to_owned(),
+            value: load,
+            accepted: "load >= 0: the sum of what presses",
+        }),
+        Press::Approach(_) if surroundings == Surroundings::Periodic => Err(Error::NotAccepted {
+            place: place.to_owned(),
+            found: "an approach on a periodic half-space".to_owned(),
+            accepted: "a load: a mean pressure moves no periodic half-space by a finite amount"
+                .to_owned(),
+        }),
+        Press::Load(_) | Press::Approach(_) => Ok(()),
+    }
+}

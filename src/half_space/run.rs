@@ -1,0 +1,298 @@
+//! Outer loop: normal and friction half-steps in turn, each as exact as the outer residual deserves.
+//!
+//! ```text
+//! start     the same problem on a grid half as fine, down to some 32 × 32, to 1 %
+//! repeat    p   ← (S7) with c = g₀ − δ − G_NT q         to a tenth of the residual
+//!           q   ← slipping contacts to their new radius −μ t_N
+//!           q   ← (S8) with R = μ p, c = û_T − G_TN p    to a tenth of the residual
+//!           U   ← U + K⁻¹ (Q − Σ q)                      if the force is given: K = Σ E (G + Λ)⁻¹ E
+//! until     natural map (K1) of all contacts ≤ tolerance
+//! ```
+
+use super::judge::{HalfSpaceCertificate, judge};
+use super::problem::HalfSpaceProblem;
+use super::sweep::Iterate;
+use crate::error::{Error, check_finite, check_length};
+
+/// Residual that counts as solved.
+const TOLERANCE: f64 = 1e-10;
+
+/// Half-steps go to this share of the outer residual.
+const INNER: f64 = 0.1;
+
+/// What is left of the last digits for the judge, who starts from fresh products.
+const LAST: f64 = 0.3;
+
+/// Outer iterations after which the loop gives up.
+const MOST_OUTER: usize = 100;
+
+/// Fall of the residual in one sweep above which Newton's method is tried.
+const SLOW: f64 = 0.25;
+
+/// Least share of friction's lift that a damped sweep passes on.
+const LEAST_SHARE: f64 = 1.0 / 32.0;
+
+/// Residual of coarser grids, which only have to give a start.
+const COARSE: f64 = 1e-2;
+
+/// Departure of the operator from its formulas that is round-off of the transforms.
+const OPERATOR: f64 = 1e-9;
+
+/// Departure of given resultants that no tolerance may be below.
+const ROUND_OFF: f64 = 1e-12;
+
+/// Whether the judge certified the state.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HalfSpaceStatus {
+    /// The residual is below the tolerance, resultants and operator are right.
+    Certified,
+    /// The loop gave up: the state is the last.
+    NotConverged,
+    /// Friction cannot carry the given tangential force: all contacts slip.
+    NoEquilibrium,
+}
+
+/// Reactions, and the rigid motion of the other side that goes with them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HalfSpaceState {
+    /// Along the normal (`t_N ≤ 0`), x and y, in N per cell.
+    pub reaction: [Vec<f64>; 3],
+    /// By how much the other side came closer, in metre.
+    pub approach: f64,
+    /// By how much it moved along x and y, in metre.
+    pub shift: [f64; 2],
+}
+
+/// What a solve took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct HalfSpaceWork {
+    /// Outer iterations on the finest grid.
+    pub outer: usize,
+    /// Two-dimensional transforms, those of coarser grids by their share of cells; without the judge's.
+    pub transforms: f64,
+}
+
+impl HalfSpaceWork {
+    /// Full applications of `G` that the transforms amount to, six each.
+    #[must_use]
+    pub fn applications(&self) -> f64 {
+        self.transforms / 6.0
+    }
+}
+
+/// The end of a solve.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HalfSpaceOutcome {
+    /// Whether the judge certified the state.
+    pub status: HalfSpaceStatus,
+    /// What the judge measured.
+    pub certificate: HalfSpaceCertificate,
+    /// The reactions.
+    pub state: HalfSpaceState,
+    /// Gap that is left, in metre per cell.
+    pub gap: Vec<f64>,
+    /// Slip along x and y since the start of the step, in metre per cell.
+    pub slip: [Vec<f64>; 2],
+    /// What it took.
+    pub work: HalfSpaceWork,
+}
+
+impl HalfSpaceProblem {
+    /// Solves to a residual of 1e-10.
+    ///
+    /// # Errors
+    ///
+    /// None once the problem stands; what cannot be solved is a status.
+    pub fn solve(&self) -> Result<HalfSpaceOutcome, Error> {
+        self.solve_to(TOLERANCE)
+    }
+
+    /// Solves to another residual, from 1e-15 to 1e-2.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] for a tolerance beyond that.
+    pub fn solve_to(&self, tolerance: f64) -> Result<HalfSpaceOutcome, Error> {
+        check_tolerance(tolerance)?;
+        let mut work = HalfSpaceWork::default();
+        let start = self.start(tolerance, &mut work)?;
+        self.end(start, tolerance, work)
+    }
+
+    /// Solves from a state that is near, such as that of the load step before, to a residual.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::OutOfRange`] for the tolerance, [`Error::Length`] and [`Error::NotFinite`] for a state
+    /// that is not of the problem's cells.
+    pub fn solve_from(
+        &self,
+        near: &HalfSpaceState,
+        tolerance: f64,
+    ) -> Result<HalfSpaceOutcome, Error> {
+        check_tolerance(tolerance)?;
+        for part in &near.reaction {
+            check_length("near.reaction", self.friction.len(), part.len())?;
+            check_finite("near.reaction", part)?;
+        }
+        let before = self.operator.transforms();
+        let start = Progress::new(Iterate::near(self, near), 0.1);
+        let work = HalfSpaceWork {
+            outer: 0,
+            transforms: (self.operator.transforms() - before) as f64,
+        };
+        self.end(start, tolerance, work)
+    }
+
+    /// Iterates from a start and has the end judged.
+    fn end(
+        &self,
+        start: Progress,
+        tolerance: f64,
+        mut work: HalfSpaceWork,
+    ) -> Result<HalfSpaceOutcome, Error> {
+        let end = self.run(start, tolerance, &mut work);
+        let state = end.iterate.state(self);
+        let judged = judge(self, &state)?;
+        let certificate = judged.certificate;
+        let sound = certificate.residual <= tolerance
+            && certificate.resultant_defect <= tolerance.max(ROUND_OFF)
+            && certificate.operator_defect <= OPERATOR;
+        let status = match (end.lost, sound) {
+            (true, _) => HalfSpaceStatus::NoEquilibrium,
+            (false, true) => HalfSpaceStatus::Certified,
+            (false, false) => HalfSpaceStatus::NotConverged,
+        };
+        let gaps = judged.elastic[0].iter().zip(&self.initial_gap);
+        let gap = gaps.map(|(u, gap)| gap - state.approach - u).collect();
+        let slip = [0, 1].map(|axis| {
+            let pairs = judged.elastic[axis + 1].iter().zip(&self.reference[axis]);
+            pairs
+                .map(|(u, before)| u - state.shift[axis] - before)
+                .collect()
+        });
+        Ok(HalfSpaceOutcome {
+            status,
+            certificate,
+            state,
+            gap,
+            slip,
+            work,
+        })
+    }
+
+    /// A start by the same problem on a coarser grid, if there is one.
+    fn start(&self, tolerance: f64, work: &mut HalfSpaceWork) -> Result<Progress, Error> {
+        let Some(coarse) = self.coarser()? else {
+            return Ok(Progress::new(Iterate::new(self), 0.3));
+        };
+        let tolerance = COARSE.max(tolerance);
+        let mut of_coarse = HalfSpaceWork::default();
+        let start = coarse.start(tolerance, &mut of_coarse)?;
+        let end = coarse.run(start, tolerance, &mut of_coarse);
+        let share = coarse.friction.len() as f64 / self.friction.len() as f64;
+        work.transforms = of_coarse.transforms * share;
+        Ok(Progress::new(end.iterate.refined(&coarse, self), 0.1))
+    }
+
+    fn run(&self, mut progress: Progress, tolerance: f64, work: &mut HalfSpaceWork) -> Progress {
+        let before = self.operator.transforms();
+        for outer in 1..=MOST_OUTER {
+            work.outer = outer;
+            let fall = progress.sweep(self, tolerance);
+            if progress.ends(tolerance) {
+                break;
+            }
+            let newton = outer > 1 && fall > SLOW && progress.newton(self, tolerance);
+            if progress.ends(tolerance) {
+                break;
+            }
+            if !newton {
+                progress.damp();
+                self.aim(&mut progress.iterate);
+            }
+        }
+        work.transforms += (self.operator.transforms() - before) as f64;
+        progress
+    }
+}
+
+fn check_tolerance(tolerance: f64) -> Result<(), Error> {
+    if (1e-15..=1e-2).contains(&tolerance) {
+        return Ok(());
+    }
+    Err(Error::OutOfRange {
+        place: "tolerance".to_owned(),
+        value: tolerance,
+        accepted: "from 1e-15 to 1e-2",
+    })
+}
+
+/// Where the loop stands, and how well it goes.
+struct Progress {
+    iterate: Iterate,
+    residual: f64,
+    /// Least residual so far.
+    best: f64,
+    /// Residual at which Newton's method was last tried.
+    tried: f64,
+    /// Part of friction's lift that a sweep passes on.
+    share: f64,
+    /// The given force is beyond what friction can carry.
+    lost: bool,
+}
+
+impl Progress {
+    /// `residual`: what the start is supposed to have.
+    fn new(iterate: Iterate, residual: f64) -> Self {
+        Self {
+            iterate,
+            residual,
+            best: f64::INFINITY,
+            tried: f64::INFINITY,
+            share: 1.0,
+            lost: false,
+        }
+    }
+
+    fn ends(&self, tolerance: f64) -> bool {
+        self.lost || self.residual <= tolerance
+    }
+
+    /// A sweep; gives the factor by which it lowered the residual.
+    fn sweep(&mut self, problem: &HalfSpaceProblem, tolerance: f64) -> f64 {
+        let target = match problem.has_friction() {
+            true => (INNER * self.residual.min(1.0)).max(LAST * tolerance),
+            false => tolerance,
+        };
+        let laws = problem.sweep(&mut self.iterate, target, self.share);
+        let [missing, beyond] = problem.missing(&self.iterate);
+        let before = self.residual;
+        self.residual = laws.hypot(missing);
+        self.lost = beyond > 10.0 * laws;
+        self.residual / before
+    }
+
+    /// Newton's method, if the residual is well below where it was tried before; says whether it helped.
+    fn newton(&mut self, problem: &HalfSpaceProblem, tolerance: f64) -> bool {
+        if self.residual > 0.3 * self.tried {
+            return false;
+        }
+        self.tried = self.residual;
+        let end = problem.finish(self.iterate.coupled(problem), tolerance);
+        if end.residual >= self.residual {
+            return false;
+        }
+        self.iterate = Iterate::of(problem, &end);
+        self.residual = end.residual;
+        self.residual < 0.1 * self.tried
+    }
+
+    /// Half the share where sweeps do not get on: eigenvalues ±iμβ beyond 1 then come inside.
+    fn damp(&mut self) {
+        if self.residual > 0.7 * self.best {
+            self.share = (0.5 * self.share).max(LEAST_SHARE);
+        }
+        self.best = self.best.min(self.residual);
+    }
+}
