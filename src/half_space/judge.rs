@@ -13,8 +13,8 @@
 use std::f64::consts::PI;
 
 use super::operator::{HalfSpace, Surroundings};
+use super::outcome::{HalfSpaceCertificate, HalfSpaceState};
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::run::HalfSpaceState;
 use crate::error::Error;
 
 /// Cells or waves at which the operator is checked.
@@ -22,23 +22,6 @@ const SAMPLES: u64 = 8;
 
 /// Relative distance from a disc's edge below which a contact slips.
 const ON_EDGE: f64 = 1e-8;
-
-/// How far a state is from the laws, and what it consists of.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HalfSpaceCertificate {
-    /// Natural map (K1), relative to the reactions.
-    pub residual: f64,
-    /// Largest relative departure from a given load or force (S10).
-    pub resultant_defect: f64,
-    /// Departure of the convolution from direct summation (S11).
-    pub operator_defect: f64,
-    /// Numbers of cells that are open, stick and slip.
-    pub open: usize,
-    /// Cells in contact inside their disc.
-    pub stick: usize,
-    /// Cells in contact on the edge of their disc.
-    pub slip: usize,
-}
 
 /// What the judge found, with the displacements it computed.
 pub(super) struct Judged {

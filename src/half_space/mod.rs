@@ -57,6 +57,7 @@ mod grid;
 mod judge;
 mod normal;
 mod operator;
+mod outcome;
 mod points;
 mod problem;
 mod rectangle;
@@ -70,9 +71,10 @@ mod vectors;
 
 pub use compliance::ElasticHalf;
 pub use grid::Grid;
-pub use judge::HalfSpaceCertificate;
 pub use operator::{HalfSpace, Surroundings};
+pub use outcome::{
+    HalfSpaceCertificate, HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork,
+};
 pub use problem::{Drag, HalfSpaceProblem, Press};
 pub use rolling::Creepage;
 pub use rough::SelfAffine;
-pub use run::{HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::operator::{HalfSpace, Surroundings};
-use super::run::HalfSpaceOutcome;
+use super::outcome::HalfSpaceOutcome;
 use super::vectors::{Pair, zero_pair};
 use crate::error::{Error, check_finite, check_length};
 

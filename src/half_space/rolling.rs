@@ -10,8 +10,8 @@
 //! rolling: Vollebregt, User guide; Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, 1990).
 
 use super::operator::Surroundings;
+use super::outcome::HalfSpaceOutcome;
 use super::problem::HalfSpaceProblem;
-use super::run::HalfSpaceOutcome;
 use crate::error::{Error, check_finite};
 
 /// Change of the tangential forces in one step, relative to them, that counts as none.

@@ -9,7 +9,8 @@
 //! until     natural map (K1) of all contacts ≤ tolerance
 //! ```
 
-use super::judge::{HalfSpaceCertificate, judge};
+use super::judge::judge;
+use super::outcome::{HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork};
 use super::problem::HalfSpaceProblem;
 use super::sweep::Iterate;
 use crate::error::{Error, check_finite, check_length};
@@ -40,62 +41,6 @@ const OPERATOR: f64 = 1e-9;
 
 /// Departure of given resultants that no tolerance may be below.
 const ROUND_OFF: f64 = 1e-12;
-
-/// Whether the judge certified the state.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum HalfSpaceStatus {
-    /// The residual is below the tolerance, resultants and operator are right.
-    Certified,
-    /// The loop gave up: the state is the last.
-    NotConverged,
-    /// Friction cannot carry the given tangential force: all contacts slip.
-    NoEquilibrium,
-}
-
-/// Reactions, and the rigid motion of the other side that goes with them.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HalfSpaceState {
-    /// Along the normal (`t_N ≤ 0`), x and y, in N per cell.
-    pub reaction: [Vec<f64>; 3],
-    /// By how much the other side came closer, in metre.
-    pub approach: f64,
-    /// By how much it moved along x and y, in metre.
-    pub shift: [f64; 2],
-}
-
-/// What a solve took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct HalfSpaceWork {
-    /// Outer iterations on the finest grid.
-    pub outer: usize,
-    /// Two-dimensional transforms, those of coarser grids by their share of cells; without the judge's.
-    pub transforms: f64,
-}
-
-impl HalfSpaceWork {
-    /// Full applications of `G` that the transforms amount to, six each.
-    #[must_use]
-    pub fn applications(&self) -> f64 {
-        self.transforms / 6.0
-    }
-}
-
-/// The end of a solve.
-#[derive(Clone, Debug, PartialEq)]
-pub struct HalfSpaceOutcome {
-    /// Whether the judge certified the state.
-    pub status: HalfSpaceStatus,
-    /// What the judge measured.
-    pub certificate: HalfSpaceCertificate,
-    /// The reactions.
-    pub state: HalfSpaceState,
-    /// Gap that is left, in metre per cell.
-    pub gap: Vec<f64>,
-    /// Slip along x and y since the start of the step, in metre per cell.
-    pub slip: [Vec<f64>; 2],
-    /// What it took.
-    pub work: HalfSpaceWork,
-}
 
 impl HalfSpaceProblem {
     /// Solves to a residual of 1e-10.

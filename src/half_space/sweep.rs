@@ -3,9 +3,9 @@
 use super::coupled::Coupled;
 use super::friction::{FrictionHalfStep, Rubbed};
 use super::normal::{NormalHalfStep, Pressed};
+use super::outcome::HalfSpaceState;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::run::HalfSpaceState;
 use super::vectors::{Pair, add, add_pair, norm, norm_pair, sum, total, zero_pair};
 use crate::error::Error;
 
