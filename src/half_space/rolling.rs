@@ -76,7 +76,7 @@ impl HalfSpaceProblem {
             let of = |cell: usize| {
                 let [x, y] = grid.position(cell);
                 let spin = creepage.spin * if axis == 0 { -y } else { x };
-                let ahead = (cell + 1) % grid.cells[0] != 0;
+                let ahead = !(cell + 1).is_multiple_of(grid.cells[0]);
                 let came = before
                     .filter(|_| ahead)
                     .map_or(0.0, |before| before[axis][cell + 1]);
