@@ -100,7 +100,7 @@ pub enum Error {
 
     /// The two sides of a contact pair are in each other deeper than an interference fit.
     #[error(
-        "{place}: the bodies overlap by {overlap:e} m at {position:?}; expected at most {allowed:e} m, \
+        "{place}: the bodies overlap by {overlap:e} at {position:?}; expected at most {allowed:e}, \
          a twentieth of the extent of the smaller side"
     )]
     Overlap {
@@ -147,7 +147,7 @@ pub enum Error {
     /// A contact node with friction is moved along the obstacle by a support.
     #[error(
         "{place}: node {node} at {position:?} has friction {friction} and a support moves it \
-         by {displacement} m along {axis}; expected 0 there, or no friction"
+         by {displacement} along {axis}; expected 0 there, or no friction"
     )]
     DraggedContact {
         /// The contact pair, such as `contacts[0]`.
@@ -167,7 +167,7 @@ pub enum Error {
     /// The stiffness of the supported body is not positive definite.
     #[error(
         "{body}: the stiffness is not positive definite at node {node} at {position:?} \
-         (pivot {pivot:e} N/m of {diagonal:e} N/m); expected supports that hold every motion, \
+         (pivot {pivot:e} of {diagonal:e}); expected supports that hold every motion, \
          cells without hinges, and a positive definite material"
     )]
     NotPositiveDefinite {
@@ -192,6 +192,21 @@ pub enum Error {
         stage: &'static str,
         /// Number of unknowns.
         unknowns: usize,
+    },
+
+    /// The dense matrices of a contact problem find no room.
+    #[error(
+        "contacts: {contacts} contacts have {unknowns} unknowns, whose dense compliance takes {gigabytes:.1} \
+         GB: more memory than there is; expected fewer contacts, by smaller groups of facets or a coarser \
+         surface"
+    )]
+    NoRoom {
+        /// Number of contacts.
+        contacts: usize,
+        /// Number of their unknowns.
+        unknowns: usize,
+        /// What the matrices take.
+        gigabytes: f64,
     },
 
     /// The operator of a bare problem is not symmetric.
@@ -266,9 +281,8 @@ pub enum Error {
 
     /// A cell that is inside out, folded or without volume.
     #[error(
-        "{place} at ({:.6e}, {:.6e}, {:.6e}) m is inside out, folded or flat: signed volume \
-         {volume:e} m^{dimension}, smallest Jacobian {jacobian:e} of a well-shaped cell's 1; \
-         expected both positive (are its nodes in Gmsh's order?)",
+        "{place} at ({:.6e}, {:.6e}, {:.6e}) is inside out, folded or flat: signed volume \
+         {volume:e}, smallest Jacobian {jacobian:e} of a well-shaped cell's 1; expected both positive (are its nodes in Gmsh's order?)",
         centroid[0], centroid[1], centroid[2]
     )]
     BadCell {
@@ -286,7 +300,7 @@ pub enum Error {
 
     /// A node that no cell uses.
     #[error(
-        "{place} at ({:.6e}, {:.6e}, {:.6e}) m belongs to no cell; expected at least one",
+        "{place} at ({:.6e}, {:.6e}, {:.6e}) belongs to no cell; expected at least one",
         position[0], position[1], position[2]
     )]
     LoneNode {
@@ -321,7 +335,7 @@ pub enum Error {
 
     /// Two supports prescribe different displacements for one component.
     #[error(
-        "{} prescribes {:e} m and {} prescribes {:e} m for component {component} of node {node}; \
+        "{} prescribes {:e} and {} prescribes {:e} for component {component} of node {node}; \
          expected one value",
         places[0], values[0], places[1], values[1]
     )]

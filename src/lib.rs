@@ -27,6 +27,7 @@
 //! | half-space | [`half_space`] | a contact per cell of a grid, by convolution, with loop and judge of its own |
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
+//! | validity | [`validity`] | what mesh and theory cannot give, with numbers |
 //! | closed forms | [`closed_forms`] | answers that need no mesh |
 //! | study | [`mod@study`] | a scene over meshes, tolerances, friction and loops |
 //! | verification | [`mod@verify`] | scenes whose answers are known, on ladders of meshes |
@@ -66,6 +67,7 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "cli")]
 pub mod study;
+pub mod validity;
 #[cfg(feature = "cli")]
 pub mod verify;
 
@@ -73,7 +75,8 @@ pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
-    Solution, SolvedStep, Variation, cases, cases_watched, limit, solve, solve_steps,
+    Checked, Solution, SolvedStep, Variation, cases, cases_watched, check, limit, solve,
+    solve_steps,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

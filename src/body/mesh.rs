@@ -142,6 +142,12 @@ impl Mesh {
         self.offsets.push(self.connectivity.len());
     }
 
+    /// Gives a cell other nodes, as many as it has.
+    pub(super) fn renumber_cell(&mut self, index: usize, nodes: &[usize]) {
+        let range = self.offsets[index]..self.offsets[index + 1];
+        self.connectivity[range].copy_from_slice(nodes);
+    }
+
     /// Drops the nodes that no cell has; there are no groups yet.
     pub(super) fn drop_lone_nodes(&mut self) {
         let mut number = vec![usize::MAX; self.nodes.len()];

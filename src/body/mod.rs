@@ -30,6 +30,7 @@ mod cell;
 mod check;
 mod dilatation;
 mod entries;
+mod extremes;
 mod facet;
 mod fixing;
 mod gauss;
@@ -50,10 +51,13 @@ mod structured;
 mod support;
 #[cfg(test)]
 pub(crate) mod tests;
+mod turned;
 
 pub(crate) use axis::Axis;
 pub(crate) use axis::held_by_axis;
 pub(crate) use check::check;
+pub(crate) use extremes::extremes;
+pub use extremes::{Extreme, Extremes};
 pub(crate) use facet::FacetGeometry;
 pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;

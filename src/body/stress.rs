@@ -22,6 +22,17 @@ use super::{Body, Cell, Lame, Model};
 /// `displacement` in metre, entry `dimension · node + axis`.
 #[must_use]
 pub(crate) fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
+    let mut stresses = Vec::with_capacity(body.mesh.cell_count());
+    for_each_cell(body, displacement, |_, _, stress| stresses.push(stress));
+    stresses
+}
+
+/// Shows every cell with the gradient `∂u_i/∂x_j` and the stress at its centre, in pascal.
+pub(super) fn for_each_cell(
+    body: &Body,
+    displacement: &[f64],
+    mut each: impl FnMut(usize, &Matrix3<f64>, [f64; 6]),
+) {
     let field = Field { body, displacement };
     let patches = Patches::new(body);
     let around_nodes: Vec<f64> = patches
@@ -30,24 +41,23 @@ pub(crate) fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
         .collect();
 
     let cells = body.mesh.cells().zip(&body.material_of_cell);
-    cells
-        .map(|(cell, &index)| {
-            let material = &body.materials[index];
-            let gradient = field.gradient(cell, cell.kind.reference().centre());
-            let theta = match Dilatation::of(cell.kind, body.model, material) {
-                Dilatation::Pointwise => gradient.trace(),
-                Dilatation::CellMean => field.mean_dilatation(cell),
-                Dilatation::NodeMean => {
-                    let around = cell
-                        .nodes
-                        .iter()
-                        .filter_map(|node| patches.find(index, *node));
-                    around.map(|patch| around_nodes[patch]).sum::<f64>() / cell.nodes.len() as f64
-                }
-            };
-            stress_of(material.lame(body.model), body.model, &gradient, theta)
-        })
-        .collect()
+    for (at, (cell, &index)) in cells.enumerate() {
+        let material = &body.materials[index];
+        let gradient = field.gradient(cell, cell.kind.reference().centre());
+        let theta = match Dilatation::of(cell.kind, body.model, material) {
+            Dilatation::Pointwise => gradient.trace(),
+            Dilatation::CellMean => field.mean_dilatation(cell),
+            Dilatation::NodeMean => {
+                let around = cell
+                    .nodes
+                    .iter()
+                    .filter_map(|node| patches.find(index, *node));
+                around.map(|patch| around_nodes[patch]).sum::<f64>() / cell.nodes.len() as f64
+            }
+        };
+        let stress = stress_of(material.lame(body.model), body.model, &gradient, theta);
+        each(at, &gradient, stress);
+    }
 }
 
 /// Stress at the nodes: the mean of the cells around each, weighted by their volume, in pascal.

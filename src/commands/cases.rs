@@ -1,20 +1,19 @@
 //! `dpana cases`: one scene under many values.
 
 use std::error::Error;
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 use dpana::Variation;
 
-use super::outputs::{check_output, write_table};
+use super::outputs::{check_output, say, write_table};
 use super::progress::Progress;
 use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Cases {
-    /// Scene in JSON, without load steps.
+    /// Scene in JSON; `-` reads it from standard input, without load steps.
     scene: PathBuf,
     /// Quantity and its values: `friction=0.1:0.9:17` (from, to, how many) or `gap=0,1e-3`.
     /// Given again, all combinations are solved. Quantities: friction, gap,
@@ -22,7 +21,7 @@ pub(crate) struct Cases {
     /// bodies[0].loads[0] and bodies[0].supports[0] (factors).
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     vary: Vec<String>,
-    /// Write the table to this file: JSON if it ends so, else CSV.
+    /// Write the table to this file: JSON if it ends so, else CSV; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
 }
@@ -44,11 +43,8 @@ pub(crate) fn cases(arguments: &Cases) -> Result<ExitCode, Box<dyn Error>> {
         .iter()
         .filter(|row| row.contains(&certified))
         .count();
-    writeln!(
-        io::stdout(),
-        "{} cases, {sound} certified",
-        table.rows.len()
-    )?;
+    let line = format!("{} cases, {sound} certified", table.rows.len());
+    say([&arguments.out], &line)?;
     Ok(match sound == table.rows.len() {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(1),

@@ -1,24 +1,27 @@
-//! `dpana check`: what a scene holds, and what is wrong with it.
+//! `dpana check`: what a scene holds, what it takes, and what is wrong with it.
 
 use std::error::Error;
+use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use super::scene_file::read_scene;
 use clap::Args;
+
+use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Check {
-    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`).
+    /// Scene in JSON (`-`: from standard input), or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
 }
 
 pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
     let scene = read_scene(&arguments.scene)?;
-    let mechanics = scene.mechanics()?;
+    let checked = dpana::check(&scene)?;
+    let (mechanics, surface) = (&checked.mechanics, &checked.surface);
     let mut out = io::stdout().lock();
-    for body in &mechanics.bodies {
+    for (body, free) in mechanics.bodies.iter().zip(&checked.free_modes) {
         writeln!(
             out,
             "body `{}`: {}D, {} nodes, {} cells, {} materials, {} supports, {} loads",
@@ -30,8 +33,7 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
             body.supports.len(),
             body.loads.len(),
         )?;
-        let free = body.free_motions()?;
-        if free > 0 {
+        if *free > 0 {
             let name = &body.name;
             writeln!(
                 out,
@@ -39,14 +41,42 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
             )?;
         }
     }
-    for (contact, stated) in mechanics.contacts.iter().zip(&scene.contacts) {
+    for (at, (contact, stated)) in mechanics.contacts.iter().zip(&scene.contacts).enumerate() {
+        let contacts = surface.nodes.iter().filter(|node| node.pair == at).count();
         writeln!(
             out,
-            "contact `{}`: {} facets, friction {}",
+            "contact `{}`: {} facets, friction {}, {contacts} contacts",
             stated.group,
             contact.facets.len(),
             contact.friction,
         )?;
     }
+    for note in &mechanics.notes {
+        writeln!(out, "note: {note}")?;
+    }
+    let (contacts, gigabytes) = (surface.nodes.len(), checked.dense_bytes as f64 * 1e-9);
+    if gigabytes >= 0.1 {
+        writeln!(
+            out,
+            "condensed problem: {contacts} contacts, {gigabytes:.1} GB"
+        )?;
+    }
+    if let Some(available) = available().filter(|available| gigabytes > *available) {
+        writeln!(
+            out,
+            "warning: that is more than the {available:.1} GB that are free here; take a smaller group of \
+             facets, or a coarser surface"
+        )?;
+    }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Memory that is free, in gigabytes; none where the system does not say so.
+fn available() -> Option<f64> {
+    let text = fs::read_to_string("/proc/meminfo").ok()?;
+    let line = text
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kilobytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1.024e-6 * kilobytes)
 }

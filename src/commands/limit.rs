@@ -1,21 +1,19 @@
 //! `dpana limit`: how far loads can grow.
 
 use std::error::Error;
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::replace_file;
 
-use super::outputs::check_output;
+use super::outputs::{check_output, say, write_output};
 use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Limit {
-    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`).
+    /// Scene in JSON (`-`: from standard input), or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
-    /// Write the limits to this file, in JSON.
+    /// Write the limits to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 }
@@ -26,8 +24,8 @@ pub(crate) fn limit(arguments: &Limit) -> Result<ExitCode, Box<dyn Error>> {
     }
     let limits = dpana::limit(&read_scene(&arguments.scene)?)?;
     if let Some(path) = &arguments.report {
-        replace_file(path, &limits.to_json())?;
+        write_output(path, &limits.to_json())?;
     }
-    writeln!(io::stdout(), "{}", limits.summary().trim_end())?;
+    say(&arguments.report, limits.summary().trim_end())?;
     Ok(ExitCode::SUCCESS)
 }

@@ -1,10 +1,13 @@
 //! A scene from a file: JSON, or an Abaqus or CalculiX deck by its ending.
 
-use std::io::{self, Write};
+use std::error::Error;
+use std::io::{self, Read, Write};
 use std::path::Path;
 
 use dpana::deck::Deck;
 use dpana::scene::Scene;
+
+use super::outputs::is_standard;
 
 /// Whether a file counts as a deck.
 pub(super) fn is_deck(path: &Path) -> bool {
@@ -12,12 +15,18 @@ pub(super) fn is_deck(path: &Path) -> bool {
     ending.is_some_and(|ending| ending.eq_ignore_ascii_case("inp"))
 }
 
-/// Reads a scene; what a deck says and is not needed is told on standard error.
-pub(super) fn read_scene(path: &Path) -> Result<Scene, dpana::Error> {
-    match is_deck(path) {
-        true => Ok(tell(Deck::from_file(path)?).scene),
-        false => Scene::from_file(path),
+/// Reads a scene from a file, or from standard input; mesh files are then relative to the working
+/// folder. What a deck says and is not needed is told on standard error.
+pub(super) fn read_scene(path: &Path) -> Result<Scene, Box<dyn Error>> {
+    if is_standard(path) {
+        let mut bytes = Vec::new();
+        io::stdin().lock().read_to_end(&mut bytes)?;
+        return Ok(Scene::from_bytes(bytes, "standard input")?);
     }
+    Ok(match is_deck(path) {
+        true => tell(Deck::from_file(path)?).scene,
+        false => Scene::from_file(path)?,
+    })
 }
 
 /// Tells the notes of a deck.

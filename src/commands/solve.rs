@@ -2,7 +2,6 @@
 
 use std::error::Error;
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
@@ -11,19 +10,19 @@ use dpana::report::{self, Continuity, Table, replace_file, vtu};
 use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
-use super::outputs::{check_output, write_table};
+use super::outputs::{check_file, check_output, is_standard, say, write_output, write_table};
 use super::progress::Progress;
 use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Solve {
-    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`).
+    /// Scene in JSON (`-`: from standard input), or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
-    /// Write the whole report to this file, in JSON.
+    /// Write the whole report to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Write displacement and stress to this file for ParaView, and the contact surface
-    /// beside it (`FILE_contact.vtu`).
+    /// beside it (`FILE_contact.vtu`, where `state` is 0 open, 1 slip, 2 stick, -1 no contact).
     ///
     /// A scene with load steps gets a file per step (`FILE_0001.vtu`) and their series beside
     /// them (`FILE.pvd`).
@@ -36,7 +35,8 @@ pub(crate) struct Solve {
     svg: Option<PathBuf>,
     /// Write the totals of every state to this file: JSON if it ends so, else CSV.
     ///
-    /// It is whole after every load step, and so are all other files of a history.
+    /// It is whole after every load step, and so are all other files of a history; `-` is standard
+    /// output, after the last one.
     #[arg(long, value_name = "FILE")]
     table: Option<PathBuf>,
     /// Draw one column of that table against another to this file, in SVG.
@@ -103,11 +103,15 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
         report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
     }
     if let Some(path) = &arguments.report {
-        replace_file(path, &report.to_json())?;
+        write_output(path, &report.to_json())?;
     }
-    writeln!(io::stdout(), "{}", report.summary().trim_end())?;
+    if let Some(path) = arguments.table.as_ref().filter(|path| is_standard(path)) {
+        write_table(path, &states.table)?;
+    }
+    let outputs = || arguments.report.iter().chain(&arguments.table);
+    say(outputs(), report.summary().trim_end())?;
     for jump in jumps {
-        writeln!(io::stdout(), "{jump}")?;
+        say(outputs(), &jump)?;
     }
     Ok(match solution.status() {
         Status::Certified => ExitCode::SUCCESS,
@@ -147,7 +151,11 @@ impl<'a> States<'a> {
         let (Some(from), Some(steps)) = (from, &scene.steps) else {
             return Ok(states);
         };
-        if let Some(path) = arguments.table.as_ref().filter(|path| path.exists()) {
+        if let Some(path) = arguments
+            .table
+            .as_ref()
+            .filter(|path| !is_standard(path) && path.exists())
+        {
             states.table = rows_before(path, from.steps)?;
         }
         if let Some(path) = &arguments.vtu {
@@ -179,7 +187,9 @@ impl<'a> States<'a> {
                     accepted: "that of the history taken on, or another file".to_owned(),
                 });
             }
-            write_table(path, &self.table)?;
+            if !is_standard(path) {
+                write_table(path, &self.table)?;
+            }
         }
         if let (Some(path), Some((x, y))) = (&arguments.plot, self.axes) {
             replace_file(path, &report::plot(&self.table, x, y)?)?;
@@ -257,6 +267,9 @@ fn check_outputs(arguments: &Solve) -> Result<(), String> {
     let given: Vec<(&str, &PathBuf)> = given.collect();
     for (number, (option, output)) in given.iter().enumerate() {
         check_output(option, output, &arguments.scene)?;
+        if !["--report", "--table"].contains(option) {
+            check_file(option, output)?;
+        }
         if let Some((other, _)) = given[..number].iter().find(|(_, path)| path == output) {
             return Err(format!("{other}, {option}: the same file; expected two"));
         }

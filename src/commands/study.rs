@@ -10,12 +10,15 @@ use clap::Args;
 use dpana::report::replace_file;
 use dpana::study::{self, Plan};
 
+use dpana::scene::Scene;
+
 use super::progress::Progress;
 use super::scene_file::read_scene;
 
 #[derive(Args)]
 pub(crate) struct Study {
-    /// Scene in JSON, or an Abaqus or CalculiX deck (`.inp`), without load steps.
+    /// Scene in JSON (`-`: from standard input), or an Abaqus or CalculiX deck (`.inp`), without load
+    /// steps.
     scene: PathBuf,
     /// Write page, tables and figures into this folder, which is made if it is not there:
     /// `index.html`, `study.json`, `meshes.csv`, `loops.csv` and the figures in SVG.
@@ -52,6 +55,7 @@ pub(crate) struct Study {
 pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     let plan = plan(arguments)?;
     let scene = read_scene(&arguments.scene)?;
+    check_refinable(arguments, &scene)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("--out {}: {error}", arguments.out.display()))?;
     let progress = Progress::new();
@@ -76,6 +80,24 @@ pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(1),
     })
+}
+
+/// Refuses other numbers of cells for a mesh that is not generated.
+fn check_refinable(arguments: &Study, scene: &Scene) -> Result<(), String> {
+    let asked = [
+        arguments.levels.map(|levels| format!("--levels {levels}")),
+        arguments
+            .refine
+            .as_ref()
+            .map(|refine| format!("--refine {refine}")),
+    ];
+    match asked.into_iter().flatten().next() {
+        Some(asked) if scene.refined(1.0).is_none() => Err(format!(
+            "{asked}: a mesh of the scene comes from a file, whose cells cannot be counted anew; expected \
+             `--meshes coarse.msh,fine.msh`"
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn plan(arguments: &Study) -> Result<Plan, String> {

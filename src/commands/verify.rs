@@ -1,15 +1,13 @@
 //! `dpana verify`: the gallery of known answers, and the hard cases.
 
 use std::error::Error;
-use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::replace_file;
 use dpana::verify::{Reach, hard_cases};
 
-use super::outputs::check_writable;
+use super::outputs::{check_writable, say, write_output};
 
 #[derive(Args)]
 pub(crate) struct Verify {
@@ -22,7 +20,7 @@ pub(crate) struct Verify {
     /// Solve only those with the most contacts: minutes, and gigabytes of memory.
     #[arg(long, conflicts_with = "quick")]
     largest: bool,
-    /// Write every number to this file, in JSON.
+    /// Write every number to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 }
@@ -36,9 +34,9 @@ pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     }
     let verification = dpana::verify(arguments.quick)?;
     if let Some(path) = &arguments.report {
-        replace_file(path, &verification.to_json())?;
+        write_output(path, &verification.to_json())?;
     }
-    writeln!(io::stdout(), "{}", verification.summary().trim_end())?;
+    say(&arguments.report, verification.summary().trim_end())?;
     Ok(ended(verification.passed))
 }
 
@@ -51,14 +49,14 @@ fn hard(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     let mut told = Ok(());
     let solved = hard_cases(reach, |row| {
         if told.is_ok() {
-            told = writeln!(io::stdout(), "{row}");
+            told = say(&arguments.report, &row.to_string());
         }
     })?;
     told?;
     if let Some(path) = &arguments.report {
-        replace_file(path, &solved.to_json())?;
+        write_output(path, &solved.to_json())?;
     }
-    writeln!(io::stdout(), "{}", solved.summary().trim_end())?;
+    say(&arguments.report, solved.summary().trim_end())?;
     Ok(ended(solved.passed))
 }
 

@@ -11,6 +11,7 @@ use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::rigid_bodies::{floating, part_motions};
+use super::room::dense_bytes;
 use super::supported::{OfInterface, SupportedBody};
 use crate::body;
 use crate::body::Body;
@@ -44,6 +45,7 @@ impl Condensed {
             prescribed.push(body::prescribed(body)?);
         }
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
+        dense_bytes(&surface)?;
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
         let (mut condensed, mut interfaces) = (Vec::new(), Vec::new());

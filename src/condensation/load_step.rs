@@ -57,11 +57,12 @@ impl Condensed {
     }
 
     /// Takes other coefficients of friction and other gaps before loading, in metre; both per
-    /// contact. Contacts that were condensed without friction have no tangents and stay smooth.
+    /// contact.
     ///
     /// # Errors
     ///
-    /// Lengths that do not fit, a NaN or infinity, a negative coefficient.
+    /// Lengths that do not fit, a NaN or infinity, a negative coefficient, friction at a contact that was
+    /// condensed without any and has no tangent for it.
     pub fn replace(&mut self, friction: Vec<f64>, initial_gap: Vec<f64>) -> Result<(), Error> {
         let problem = self.problem.with_friction(friction)?;
         self.problem = problem.with_initial_gap(initial_gap)?;
@@ -169,6 +170,18 @@ mod tests {
         let (found, expected) = (&condensed.bodies()[0], &fresh.bodies()[0]);
         assert!(largest_difference(found.load(), expected.load()) < 1e-15);
         assert_eq!(found.prescribed(), expected.prescribed());
+    }
+
+    #[test]
+    fn friction_at_contacts_without_tangents_is_refused() {
+        let (body, pair) = pressed(0.0, 0.3, -0.5);
+        let mut condensed = Condensed::new(&[body], &[pair]).unwrap();
+        let (contacts, gaps) = (condensed.problem().contacts(), vec![0.0; 9]);
+        let gaps = gaps.into_iter().cycle().take(contacts).collect::<Vec<_>>();
+        let refused = condensed.replace(vec![0.2; contacts], gaps.clone());
+        let refused = refused.unwrap_err().to_string();
+        assert!(refused.contains("condensed without friction"), "{refused}");
+        assert!(condensed.replace(vec![0.0; contacts], gaps).is_ok());
     }
 
     #[test]

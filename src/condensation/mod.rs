@@ -17,6 +17,7 @@
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `load_case`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6) | `condensed_body` |
+//! | room for what is dense | `room` |
 //! | the problem of a load step (C13) | `load_step` |
 
 mod border;
@@ -32,6 +33,7 @@ mod load_step;
 mod local_axes;
 mod ordering;
 mod rigid_bodies;
+mod room;
 mod substitution;
 mod superposition;
 mod supported;
@@ -42,5 +44,6 @@ mod work;
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
+pub(crate) use room::dense_bytes;
 pub(crate) use superposition::{Driven, Superposition};
 pub(crate) use work::CondensationWork;

@@ -68,6 +68,12 @@ impl RigidBodies {
         &self.surface
     }
 
+    /// The contact surface alone.
+    #[must_use]
+    pub(crate) fn into_surface(self) -> ContactSurface {
+        self.surface
+    }
+
     /// R of (C3), per contact unknown and free mode.
     #[must_use]
     pub(crate) fn modes(&self) -> Mat<f64> {

@@ -177,7 +177,7 @@ fn contacts(
             rim: false,
         });
     }
-    scene.boundaries[own.body].mark_rims(&mut contacts, &own.facets);
+    scene.boundaries[own.body].mark_rims(&mut contacts, &own.facets, Some(&across.mesh));
     let met = contacts.iter().map(|contact| contact.node);
     let met: HashSet<usize> = met.chain(left_out.iter().copied()).collect();
     let covered = |facet: &&Facet| {

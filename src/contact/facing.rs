@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use nalgebra::Vector3;
 
 use super::{ContactNode, ContactPair, Obstacle};
-use crate::body::{Body, Facet, FacetGeometry};
+use crate::body::{Body, Facet, FacetGeometry, Mesh};
 use crate::error::Error;
 
 /// Cosine between a facet's normal and the direction to the obstacle, above which it faces it.
@@ -21,6 +21,9 @@ const FACING: f64 = 1e-6;
 
 /// Cosine above which a neighbouring facet continues the surface and does not turn a corner.
 const SMOOTH: f64 = 0.5;
+
+/// Part of the way to the middle of the next facet beyond which a body goes on.
+const BEYOND: f64 = 0.1;
 
 /// The facets of the body's boundary, found by their nodes.
 pub(super) struct Boundary<'a> {
@@ -109,8 +112,14 @@ impl<'a> Boundary<'a> {
         (sum / facet.nodes.len() as f64).into()
     }
 
-    /// Marks contacts of a pair where a boundary facet outside it goes on in the same direction.
-    pub(super) fn mark_rims(&self, contacts: &mut [ContactNode], of_pair: &[Facet]) {
+    /// Marks contacts of a pair where a boundary facet outside it goes on in the same direction, and
+    /// the `other` body goes on along it, if it is no obstacle.
+    pub(super) fn mark_rims(
+        &self,
+        contacts: &mut [ContactNode],
+        of_pair: &[Facet],
+        other: Option<&Mesh>,
+    ) {
         let within: HashSet<Vec<usize>> = of_pair.iter().map(key).collect();
         let numbered = contacts.iter().enumerate();
         let contact_of_node: HashMap<usize, usize> = numbered
@@ -128,10 +137,26 @@ impl<'a> Boundary<'a> {
             {
                 let contact = &mut contacts[*contact];
                 let normal = self.body.facet_geometry(facet).normal;
-                contact.rim |= cosine(normal, contact.frame[0]) > SMOOTH;
+                contact.rim |= cosine(normal, contact.frame[0]) > SMOOTH
+                    && other.is_none_or(|other| goes_on(other, contact, self.centre(facet)));
             }
         }
     }
+}
+
+/// A body that a contact faces reaches beyond it, on the way along the surface to `beyond`.
+fn goes_on(other: &Mesh, contact: &ContactNode, beyond: [f64; 3]) -> bool {
+    let (at, normal) = (
+        Vector3::from(contact.position),
+        Vector3::from(contact.frame[0]),
+    );
+    let way = Vector3::from(beyond) - at;
+    let way = way - normal * normal.dot(&way);
+    let mut nodes = other.nodes.iter().map(|node| Vector3::from(*node) - at);
+    nodes.any(|node| {
+        let near = (node.dot(&normal) - contact.initial_gap).abs() < way.norm();
+        near && node.dot(&way) > BEYOND * way.norm_squared()
+    })
 }
 
 /// The nodes of a facet in ascending order, the same from both sides.

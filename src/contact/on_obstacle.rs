@@ -35,7 +35,7 @@ pub(super) fn on_obstacle(
             None => left_out.push(node),
         }
     }
-    boundary.mark_rims(&mut contacts, &pair.facets);
+    boundary.mark_rims(&mut contacts, &pair.facets, None);
     Ok(PairSurface {
         body: pair.body,
         contacts,

@@ -1,15 +1,19 @@
 //! Where the work of a load step went.
 //!
 //! ```text
-//! (K9)   loads + supports + obstacles = elastic + dissipation + closure
+//! (K9)   loads + supports + obstacles + fits = elastic + dissipation + closure
 //!
 //!        loads       Σ ½ (f⁰ + f) · Δu          f⁰, f: before and after the step
 //!        supports    Σ ½ (s⁰ + s) · Δu_p        s: support reactions (K4)
 //!        obstacles   Σ ½ (t⁰ + t) · Δd          d: motion of a rigid other side (C14)
+//!        fits        Σ ½ (t⁰ + t)_N min(g₀, 0)   of the step that assembles the bodies
 //!        elastic     Δ ½ u · K u
 //!        dissipation Σ ½ μ (|t_N⁰| + |t_N|) ‖Δu_T‖   over contacts that end pressed; never negative
-//! (K10)  closure     −Σ ½ (t⁰ + t) · Δ(u_N, u_T) − dissipation
+//! (K10)  closure     −Σ ½ (t⁰ + t) · Δ(u_N, u_T) + fits − dissipation
 //! ```
+//!
+//! A fit is work that somebody does once: bodies that overlap before loading are forced apart by the first
+//! step, as if the other side came in by the overlap.
 //!
 //! As K is symmetric the trapezoidal rule gives Δ elastic exactly, so the closure is (K10) up to
 //! round-off: what the two ends of a step do not tell of the way between them. It vanishes where
@@ -30,6 +34,8 @@ pub struct Ledger {
     pub supports: f64,
     /// Work of the moved obstacles.
     pub obstacles: f64,
+    /// Work of forcing bodies together that overlap before loading.
+    pub fits: f64,
     /// Change of the elastic energy.
     pub elastic: f64,
     /// What friction dissipated, never negative.
@@ -64,6 +70,8 @@ pub struct ContactStep<'a> {
     pub displacement: &'a [f64],
     /// Motion of the other side during the step, in metre per unknown.
     pub moved: &'a [f64],
+    /// The step begins before the bodies are assembled.
+    pub assembles: bool,
 }
 
 impl Account {
@@ -153,9 +161,10 @@ impl Ledger {
         for ((before, after), moved) in means.zip(contacts.moved) {
             ledger.obstacles += 0.5 * (before + after) * moved;
         }
+        ledger.fits = contacts.fits();
         ledger.dissipation = contacts.dissipation();
-        ledger.closure =
-            ledger.loads + ledger.supports + ledger.obstacles - ledger.elastic - ledger.dissipation;
+        let work = ledger.loads + ledger.supports + ledger.obstacles + ledger.fits;
+        ledger.closure = work - ledger.elastic - ledger.dissipation;
         Ok(ledger)
     }
 
@@ -168,11 +177,12 @@ impl Ledger {
 
     /// The entries in the order of (K9).
     #[must_use]
-    pub fn entries(&self) -> [f64; 6] {
+    pub fn entries(&self) -> [f64; 7] {
         [
             self.loads,
             self.supports,
             self.obstacles,
+            self.fits,
             self.elastic,
             self.dissipation,
             self.closure,
@@ -180,13 +190,22 @@ impl Ledger {
     }
 }
 
-impl From<[f64; 6]> for Ledger {
-    fn from(entries: [f64; 6]) -> Self {
-        let [loads, supports, obstacles, elastic, dissipation, closure] = entries;
+impl From<[f64; 7]> for Ledger {
+    fn from(entries: [f64; 7]) -> Self {
+        let [
+            loads,
+            supports,
+            obstacles,
+            fits,
+            elastic,
+            dissipation,
+            closure,
+        ] = entries;
         Self {
             loads,
             supports,
             obstacles,
+            fits,
             elastic,
             dissipation,
             closure,
@@ -195,6 +214,19 @@ impl From<[f64; 6]> for Ledger {
 }
 
 impl ContactStep<'_> {
+    fn fits(&self) -> f64 {
+        if !self.assembles {
+            return 0.0;
+        }
+        let gaps = self.problem.initial_gap().iter().enumerate();
+        gaps.filter(|(_, gap)| **gap < 0.0)
+            .map(|(i, gap)| {
+                let [before, after] = self.reaction.map(|t| block(self.problem, i, t)[0]);
+                0.5 * (before + after) * gap
+            })
+            .sum()
+    }
+
     fn dissipation(&self) -> f64 {
         let friction = self.problem.friction().iter().enumerate();
         friction
@@ -228,8 +260,29 @@ mod tests {
             reaction: [&before, &after],
             displacement: &[0.0, 0.5],
             moved: &[0.1, 0.0],
+            assembles: false,
         };
         Ledger::new(&none, &none, &contacts).unwrap()
+    }
+
+    #[test]
+    fn the_energy_of_a_fit_is_work_that_assembled_it() {
+        // Pressed out of an overlap of 0.2 m by 3 N, G = 1 m/N of which u_N = −0.2 is left.
+        let operator = Operator::from_compliance(Mat::identity(1, 1)).unwrap();
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![-0.2], vec![0.0], operator);
+        let found = |assembles| {
+            let none = Account::default();
+            let contacts = ContactStep {
+                problem: problem.as_ref().unwrap(),
+                reaction: [&[0.0], &[-3.0]],
+                displacement: &[-0.2],
+                moved: &[0.0],
+                assembles,
+            };
+            Ledger::new(&none, &none, &contacts).unwrap().fits
+        };
+        assert!((found(true) - 0.3).abs() < 1e-15);
+        assert_eq!(found(false), 0.0);
     }
 
     #[test]

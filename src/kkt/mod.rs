@@ -41,6 +41,7 @@ mod scales;
 mod sides;
 mod signorini;
 mod state;
+mod support_forces;
 mod surface_departure;
 #[cfg(test)]
 pub(crate) mod tests;
@@ -58,4 +59,5 @@ pub use judge::Judge;
 pub(crate) use ledger::{Account, ContactStep, Ledger};
 pub(crate) use resultant::Resultant;
 pub(crate) use sides::{global_force, relative_displacement};
+pub(crate) use support_forces::support_forces;
 pub use surface_departure::surface_departure;

@@ -12,7 +12,7 @@ use crate::condensation::{Driven, Superposition};
 use crate::contact::{ContactPair, Opposite};
 use crate::error::{Error, check_finite};
 use crate::report::Table;
-use crate::scene::{Scene, driven};
+use crate::scene::{Scene, driven, nearest};
 
 /// A quantity of a scene and the values that it takes.
 ///
@@ -211,6 +211,11 @@ impl Quantities {
         found.collect()
     }
 
+    fn nearest(&self, name: &str) -> Option<String> {
+        let known = self.0.iter().map(|(name, _)| name.as_str());
+        nearest(name, known).map(str::to_owned)
+    }
+
     fn find(&self, variation: &Variation) -> Result<Drive, Error> {
         let name = &variation.name;
         let Some((_, drive)) = self.0.iter().find(|(known, _)| known == name) else {
@@ -218,7 +223,7 @@ impl Quantities {
                 place: "vary".to_owned(),
                 what: "quantity",
                 name: name.clone(),
-                nearest: None,
+                nearest: self.nearest(name),
                 known: self.0.iter().map(|(name, _)| name.clone()).collect(),
             });
         };

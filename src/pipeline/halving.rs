@@ -167,7 +167,8 @@ impl Change {
 
 /// Work that went in or out, by size, with a floor from the elastic energy, in joule.
 fn energy(ledger: &Ledger, elastic: f64) -> f64 {
-    let work = ledger.loads.abs() + ledger.supports.abs() + ledger.obstacles.abs();
+    let driven = ledger.loads.abs() + ledger.supports.abs() + ledger.obstacles.abs();
+    let work = driven + ledger.fits.abs();
     work + FLOOR * elastic
 }
 

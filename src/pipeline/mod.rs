@@ -2,17 +2,18 @@
 //! goes round the last three.
 
 mod cases;
+mod check;
 mod halving;
 mod limit;
 mod steps;
 mod substep;
 
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
 use crate::alternation::{Earlier, Outcome, Settings, Shortfall, Status};
-use crate::body::Body;
+use crate::body::{Body, Extremes};
 use crate::condensation::Condensed;
 use crate::contact::{ContactPair, Opposite};
 use crate::error::Error;
@@ -22,9 +23,10 @@ use crate::report::{
     Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
-use crate::{alternation, body, kkt};
+use crate::{alternation, body, kkt, validity};
 
 pub use cases::{Variation, cases, cases_watched};
+pub use check::{Checked, check};
 pub(crate) use halving::Halving;
 pub use limit::limit;
 pub use steps::{SolvedStep, solve_steps};
@@ -47,6 +49,7 @@ struct Setup {
     bodies: Arc<[Body]>,
     pairs: Arc<[ContactPair]>,
     settings: Settings,
+    notes: Vec<String>,
     condensed: Condensed,
 }
 
@@ -56,6 +59,7 @@ impl Setup {
             bodies,
             contacts: pairs,
             settings,
+            notes,
             ..
         } = mechanics;
         let condensed = Condensed::new(&bodies, &pairs)?;
@@ -65,6 +69,7 @@ impl Setup {
             bodies: bodies.into(),
             pairs: pairs.into(),
             settings,
+            notes,
             condensed,
         })
     }
@@ -113,6 +118,7 @@ impl Setup {
             departure,
             recovery_seconds,
             step: None,
+            extremes: OnceLock::new(),
         })
     }
 
@@ -135,6 +141,8 @@ pub struct Solution {
     departure: Worst,
     recovery_seconds: f64,
     step: Option<SolvedStep>,
+    /// Of every body, once somebody asks.
+    extremes: OnceLock<Vec<Extremes>>,
 }
 
 impl Solution {
@@ -212,11 +220,17 @@ impl Solution {
     pub fn report(&self) -> Result<Report, Error> {
         let work = self.setup.condensed.work();
         let halving = self.step.as_ref().and_then(SolvedStep::halving);
+        let halving: Vec<String> = halving.and_then(Halving::note).into_iter().collect();
         let failure = self.outcome.failure.iter();
         let motions: Vec<_> = failure
             .flat_map(|failure| self.setup.condensed.motions(&failure.apparent))
             .collect();
-        Report::new(&ReportParts {
+        let states = self
+            .setup
+            .body_states(&self.outcome.reaction, &self.displacements);
+        let support_forces = states.iter().map(kkt::support_forces);
+        let support_forces: Vec<_> = support_forces.collect::<Result<_, _>>()?;
+        let parts = ReportParts {
             title: &self.setup.title,
             units: &self.setup.units,
             bodies: &self.setup.bodies,
@@ -227,6 +241,8 @@ impl Solution {
             displacements: &self.displacements,
             motions: &motions,
             balances: &self.balances,
+            extremes: self.extremes(),
+            support_forces: &support_forces,
             departure: self.departure,
             stages: &StageWork {
                 factorisations: work.factorisations,
@@ -238,9 +254,21 @@ impl Solution {
             },
             origins: self.step.as_ref().map_or(&[], |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
-            notes: &halving
-                .and_then(Halving::note)
-                .map_or_else(Vec::new, |note| vec![note]),
+            notes: &[],
+        };
+        let doubts = validity::notes(&parts);
+        Report::new(&ReportParts {
+            notes: &[self.setup.notes.as_slice(), &halving, &doubts].concat(),
+            ..parts
+        })
+    }
+
+    /// The largest displacement, stress, strain and rotation of every body.
+    #[must_use]
+    pub fn extremes(&self) -> &[Extremes] {
+        self.extremes.get_or_init(|| {
+            let solved = self.setup.bodies.iter().zip(&self.displacements);
+            solved.map(|(body, u)| body::extremes(body, u)).collect()
         })
     }
 

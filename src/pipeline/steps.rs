@@ -163,9 +163,9 @@ impl Past {
             let place = format!("state.displacements[{index}]");
             check_length(&place, unknowns, displacement.len())?;
         }
-        let total = <[f64; 6]>::try_from(plain(&saved.ledger)).map_err(|found| Error::Length {
+        let total = <[f64; 7]>::try_from(plain(&saved.ledger)).map_err(|found| Error::Length {
             place: "state.ledger".to_owned(),
-            expected: 6,
+            expected: 7,
             found: found.len(),
         })?;
         let displacements: Vec<_> = saved.displacements.iter().map(|u| plain(u)).collect();

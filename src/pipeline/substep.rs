@@ -113,6 +113,7 @@ impl<'a> Course<'a> {
                 reaction: [&from.reaction, &outcome.reaction],
                 displacement,
                 moved: &moved(condensed.surface(), &from.obstacles, &obstacles),
+                assembles: from.account.is_none(),
             },
         )?;
         let state = State {

@@ -56,6 +56,8 @@ pub struct ContactProblem {
     reference: Vec<f64>,
     operator: Arc<Operator>,
     offsets: Vec<usize>,
+    /// Contacts that were stated without friction and hold no tangent.
+    smooth: Arc<[bool]>,
     floating: Option<Floating>,
 }
 
@@ -88,7 +90,11 @@ impl ContactProblem {
         Self::check_friction(&friction)?;
         check_finite("initial_gap", &initial_gap)?;
         check_finite("free_displacement", &free_displacement)?;
+        let stated = tangents.iter().zip(&friction);
+        let smooth = stated.map(|(&tangents, &mu)| tangents == 0 && mu == 0.0);
+        let smooth = smooth.collect();
         Ok(Self {
+            smooth,
             friction,
             initial_gap,
             free_displacement,
@@ -137,10 +143,20 @@ impl ContactProblem {
     ///
     /// # Errors
     ///
-    /// A length that does not fit, a NaN or infinity, a negative coefficient.
+    /// A length that does not fit, a NaN or infinity, a negative coefficient, friction at a contact that
+    /// was stated without any and has no tangent for it.
     pub fn with_friction(&self, friction: Vec<f64>) -> Result<Self, Error> {
         check_length("friction", self.contacts(), friction.len())?;
         Self::check_friction(&friction)?;
+        let rough = friction.iter().zip(self.smooth.iter());
+        if let Some(contact) = rough.clone().position(|(&mu, &smooth)| smooth && mu > 0.0) {
+            return Err(Error::OutOfRange {
+                place: format!("friction[{contact}]"),
+                value: friction[contact],
+                accepted: "0, as this contact was condensed without friction and holds no tangent; \
+                           condense it with any friction > 0, and set that to 0 where it is not wanted",
+            });
+        }
         Ok(Self {
             friction,
             ..self.clone()

@@ -37,7 +37,7 @@ pub struct Contact {
     /// Distance left to the other side, in metre.
     pub gap: f64,
     /// Tangential displacement relative to the other side since the start of the load step,
-    /// in metre.
+    /// in metre; zero where open, as nothing slips there.
     pub slip: Vec<f64>,
     /// Tributary area, in m².
     pub area: f64,
@@ -108,6 +108,9 @@ pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
 /// from the contact problem, which holds no tangent where there is no friction: the bodies
 /// slide all the same.
 fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
+    if parts.outcome.verdict.status[i] == ContactStatus::Open {
+        return [0.0; 3];
+    }
     let contact = &parts.surface.nodes[i];
     let mut slip = relative_displacement(contact, parts.displacements, parts.dimension());
     if let Some(origin) = parts.origins.get(i) {

@@ -24,6 +24,7 @@
 mod certificate;
 mod contacts;
 mod digits;
+mod extremes;
 mod failure;
 #[cfg(feature = "cli")]
 mod figure;
@@ -58,6 +59,7 @@ use serde::Serialize;
 pub(crate) use certificate::ReportedDefect;
 pub use certificate::{ReportedBalance, ReportedCertificate, ReportedWorst};
 pub use contacts::{Contact, ReportedContactState};
+pub use extremes::{Largest, ReportedExtremes, SupportForce};
 pub use failure::ReportedFailure;
 #[cfg(feature = "cli")]
 pub use figure::plot;
@@ -66,7 +68,7 @@ pub use file::replace_file;
 pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
 pub use motion::ReportedMotion;
-pub(crate) use motion::motions;
+pub(crate) use motion::{motions, significant};
 pub(crate) use picture::Picture;
 pub use quality::Quality;
 pub use shortfall::ReportedShortfall;
@@ -89,7 +91,7 @@ use crate::condensation::PartMotion;
 use crate::contact::{ContactPair, ContactSurface};
 use crate::error::{Error, check_length};
 use crate::problem::ContactProblem;
-use crate::{alternation, kkt};
+use crate::{alternation, body, kkt};
 
 /// A solved scene, as it is reported.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -119,6 +121,10 @@ pub struct Report {
     pub trust: Option<Trust>,
     /// Totals over the contact surface, and pair by pair.
     pub totals: Totals,
+    /// What is largest in the bodies.
+    pub extremes: ReportedExtremes,
+    /// What every support carries.
+    pub supports: Vec<SupportForce>,
     /// How far pressure and stress can be trusted by eye.
     pub quality: Quality,
     /// What it took.
@@ -207,6 +213,10 @@ pub struct ReportParts<'a> {
     pub motions: &'a [PartMotion],
     /// Equilibrium of each body in that displacement.
     pub balances: &'a [kkt::Balance],
+    /// Its extremes, body by body.
+    pub extremes: &'a [body::Extremes],
+    /// Force of every support on its body in global axes, body by body, in newton.
+    pub support_forces: &'a [Vec<[f64; 3]>],
     /// How far that displacement is from the condensed problem's at the contacts.
     pub departure: kkt::Worst,
     /// What the stages around the outer loop took.
@@ -242,13 +252,15 @@ impl Report {
             title: parts.title.to_owned(),
             units: parts.units.to_owned(),
             status: parts.outcome.status.into(),
-            shortfall: ReportedShortfall::of(parts.outcome),
+            shortfall: ReportedShortfall::of(parts),
             failure: ReportedFailure::new(parts),
             step: parts.step.clone(),
             size: Size::new(parts),
             certificate: ReportedCertificate::new(parts),
             trust: None,
             totals: Totals::new(parts, &exchanges, &forces),
+            extremes: ReportedExtremes::new(parts),
+            supports: extremes::support_forces(parts),
             quality: Quality::new(parts, &contacts),
             work: ReportedWork::new(parts),
             history: parts
@@ -307,7 +319,7 @@ impl Size {
 
 impl ReportParts<'_> {
     /// Dimension of the bodies; they have the same.
-    fn dimension(&self) -> usize {
+    pub(crate) fn dimension(&self) -> usize {
         self.bodies.first().map_or(0, |body| body.mesh.dimension)
     }
 }
@@ -321,6 +333,8 @@ fn check(parts: &ReportParts<'_>) -> Result<(), Error> {
     }
     check_length("displacements", count, parts.displacements.len())?;
     check_length("balances", count, parts.balances.len())?;
+    check_length("extremes", count, parts.extremes.len())?;
+    check_length("support_forces", count, parts.support_forces.len())?;
     for (index, (body, displacement)) in parts.bodies.iter().zip(parts.displacements).enumerate() {
         let (dimension, nodes) = (body.mesh.dimension, body.mesh.nodes.len());
         if dimension != parts.dimension() {

@@ -93,7 +93,7 @@ fn direction(vector: [f64; 3]) -> String {
 }
 
 /// Four significant digits, without needless zeros.
-pub(super) fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
     }

@@ -2,6 +2,9 @@
 
 use serde::Serialize;
 
+use std::collections::HashSet;
+
+use super::ReportParts;
 use super::digits::size;
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
@@ -55,48 +58,79 @@ impl Reason {
 
 impl ReportedShortfall {
     /// None for a certified answer.
-    pub(super) fn of(outcome: &Outcome) -> Option<Self> {
+    pub(super) fn of(parts: &ReportParts<'_>) -> Option<Self> {
+        let outcome = parts.outcome;
         match outcome.status {
             Status::Certified => None,
-            Status::NotConverged => outcome.shortfall.map(Self::from),
+            Status::NotConverged => Some(Self::new(outcome.shortfall?, parts)),
             Status::NoEquilibrium => Some(Self {
                 reason: Reason::NoEquilibrium,
-                advice:
-                    "hold the motion by a support, or by more friction: `dpana limit` says how much"
-                        .to_owned(),
+                advice: held(outcome),
             }),
         }
     }
 }
 
-impl From<alternation::Shortfall> for ReportedShortfall {
-    fn from(shortfall: alternation::Shortfall) -> Self {
+/// What could hold bodies that move off: friction only where something slides.
+fn held(outcome: &Outcome) -> String {
+    let slides =
+        |failure: &alternation::Failure| !failure.sliding.is_empty() || failure.opening.is_empty();
+    match outcome.failure.as_ref().is_some_and(slides) {
+        true => "hold the motion by a support, or by more friction: `dpana limit` says how much",
+        false => {
+            "hold the motion by a support, or press the bodies together: contacts that only open are \
+             held by no friction"
+        }
+    }
+    .to_owned()
+}
+
+/// What to do where sweeps lead nowhere: less friction only helps where there is any.
+fn stalled(sweeps: usize, parts: &ReportParts<'_>) -> String {
+    let cause = match parts.problem.friction().iter().any(|mu| *mu > 0.0) {
+        true => {
+            "with this much friction there may be several states, or one that smaller load steps lead \
+             to; try steps, or less friction"
+        }
+        false => {
+            "there is no friction, so that states differ in their gaps alone; look for bodies that hardly \
+             anything holds, for loads tiny beside the stiffness, and for a misplaced unit"
+        }
+    };
+    format!("{sweeps} sweeps without a better state: {cause}")
+}
+
+/// What to look for where the compliance is nearly singular: contacts that stand twice only where some do.
+fn ill_conditioned(condition: f64, parts: &ReportParts<'_>) -> String {
+    let mut met = HashSet::new();
+    let mut nodes = parts.surface.nodes.iter();
+    let look_for = match nodes.all(|contact| met.insert((contact.body, contact.node))) {
+        true => "contacts much closer together than the cells of the other side",
+        false => "contacts that stand twice",
+    };
+    format!(
+        "condition {} of the compliance: look for {look_for}, and for supports that hardly hold a body",
+        size(condition)
+    )
+}
+
+impl ReportedShortfall {
+    fn new(shortfall: alternation::Shortfall, parts: &ReportParts<'_>) -> Self {
         let (reason, advice) = match shortfall {
             alternation::Shortfall::SweepLimit => (
                 Reason::SweepLimit,
                 "raise settings.max_sweeps, or leave it out".to_owned(),
             ),
-            alternation::Shortfall::Stalled { sweeps } => (
-                Reason::Stalled,
-                format!(
-                    "{sweeps} sweeps without a better state: with this much friction there may be \
-                     several states, or one that smaller load steps lead to; try steps, or less friction"
-                ),
-            ),
+            alternation::Shortfall::Stalled { sweeps } => (Reason::Stalled, stalled(sweeps, parts)),
             alternation::Shortfall::ConeSolver => (
                 Reason::ConeSolver,
                 "numbers of very different size in one scene: look for a misplaced unit among \
                  stiffnesses, loads and gaps"
                     .to_owned(),
             ),
-            alternation::Shortfall::IllConditioned { condition } => (
-                Reason::IllConditioned,
-                format!(
-                    "condition {} of the compliance: look for contacts that stand twice, nearly \
-                     in the same place or direction, and for supports that hardly hold a body",
-                    size(condition)
-                ),
-            ),
+            alternation::Shortfall::IllConditioned { condition } => {
+                (Reason::IllConditioned, ill_conditioned(condition, parts))
+            }
             alternation::Shortfall::OutOfBalance { body, part } => (
                 Reason::OutOfBalance,
                 format!(

@@ -45,6 +45,8 @@ pub struct ReportedLedger {
     pub supports: f64,
     /// Work of the moved obstacles.
     pub obstacles: f64,
+    /// Work of forcing bodies together that overlap before loading; in the first step.
+    pub fits: f64,
     /// Change of the elastic energy.
     pub elastic: f64,
     /// What friction dissipated, never negative.
@@ -60,6 +62,7 @@ impl From<kkt::Ledger> for ReportedLedger {
             loads: ledger.loads,
             supports: ledger.supports,
             obstacles: ledger.obstacles,
+            fits: ledger.fits,
             elastic: ledger.elastic,
             dissipation: ledger.dissipation,
             closure: ledger.closure,

@@ -3,6 +3,9 @@
 use super::figure::{Axis, Curve, Figure, Point};
 use super::{Part, ReportedStatus, StudiedMesh, StudiedRun, Study};
 
+/// An error of nothing is drawn as round-off, for there is no zero on a logarithmic axis.
+const EXACT: f64 = f64::EPSILON;
+
 impl Study {
     /// The figures that the study has points for, each with a short name for its file.
     #[must_use]
@@ -46,7 +49,7 @@ impl Study {
         let curve = |name: &str, value: &dyn Fn(&StudiedMesh) -> Option<f64>| {
             let points = self.meshes.iter().filter_map(|mesh| {
                 Some(Point {
-                    at: [mesh.seconds.total, value(mesh)?],
+                    at: [mesh.seconds.total, value(mesh)?.max(EXACT)],
                     open: mesh.status != ReportedStatus::Certified,
                 })
             });
@@ -136,7 +139,7 @@ impl Study {
                 "seconds on the condensed problem",
                 "‖t − t*‖ / ‖t*‖, energy norm",
             ],
-            |run| vec![[run.seconds, run.distance]],
+            |run| vec![[run.seconds, run.distance.max(EXACT)]],
         )
     }
 
@@ -149,7 +152,7 @@ impl Study {
             &format!("Residual against time{}", self.contacts()),
             ["seconds on the condensed problem", "natural-map residual"],
             |run| match run.tolerance == tightest {
-                true => run.course.clone(),
+                true => run.course.iter().map(|[s, r]| [*s, r.max(EXACT)]).collect(),
                 false => Vec::new(),
             },
         )

@@ -4,7 +4,8 @@ use std::fmt::Write;
 
 use super::digits::{number, size};
 use super::{
-    Report, ReportedBalance, ReportedDefect, ReportedFailure, ReportedShortfall, ReportedStatus,
+    Largest, Report, ReportedBalance, ReportedDefect, ReportedFailure, ReportedShortfall,
+    ReportedStatus,
 };
 
 /// How many contact pairs the summary lists before it only counts them.
@@ -19,6 +20,7 @@ pub(super) fn summary(report: &Report) -> String {
         .and_then(|()| match &report.failure {
             Some(failure) => missing(&mut text, failure),
             None => totals(&mut text, report)
+                .and_then(|()| extremes(&mut text, report))
                 .and_then(|()| energy(&mut text, report))
                 .and_then(|()| quality(&mut text, report))
                 .and_then(|()| pairs(&mut text, report))
@@ -108,6 +110,33 @@ fn totals(text: &mut String, report: &Report) -> std::fmt::Result {
     writeln!(text, "peak pressure   {}", number(totals.peak_pressure))
 }
 
+/// What is largest in the bodies, and what the supports carry.
+fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
+    let found = &report.extremes;
+    let place = |largest: Largest, what: &str| match report.size.bodies.as_slice() {
+        [_] => format!("{what} {}", largest.place),
+        bodies => {
+            let body = bodies.get(largest.body).map_or("", |body| &body.name);
+            format!("body `{body}`, {what} {}", largest.place)
+        }
+    };
+    for (name, largest, what) in [
+        ("displacement", found.displacement, "node"),
+        ("von Mises", found.von_mises, "cell"),
+    ] {
+        let (value, place) = (number(largest.value), place(largest, what));
+        writeln!(text, "{name:<16}{value} at most, {place}")?;
+    }
+    for support in report.supports.iter().take(LISTED) {
+        let (place, force) = (&support.place, vector(&support.force));
+        writeln!(text, "support         {force} by {place}")?;
+    }
+    match report.supports.len().saturating_sub(LISTED) {
+        0 => Ok(()),
+        rest => writeln!(text, "  ... and {rest} more"),
+    }
+}
+
 /// What the mesh leaves to be desired, as far as it was looked at.
 fn quality(text: &mut String, report: &Report) -> std::fmt::Result {
     let mut parts = Vec::new();
@@ -136,7 +165,7 @@ fn energy(text: &mut String, report: &Report) -> std::fmt::Result {
         return Ok(());
     };
     let total = &step.total;
-    let work = number(total.loads + total.supports + total.obstacles);
+    let work = number(total.loads + total.supports + total.obstacles + total.fits);
     let (elastic, friction) = (number(total.elastic), number(total.dissipation));
     let open = size(total.closure);
     writeln!(

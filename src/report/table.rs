@@ -75,8 +75,13 @@ impl Table {
 
     fn of_csv(text: &str) -> Option<Self> {
         let mut lines = text.lines();
-        let columns = lines.next()?.split(',').map(str::to_owned).collect();
-        let rows = lines.map(|line| line.split(',').map(Cell::of_text).collect());
+        let columns = entries(lines.next()?);
+        let rows = lines.map(|line| {
+            entries(line)
+                .iter()
+                .map(|entry| Cell::of_text(entry))
+                .collect()
+        });
         Some(Self {
             columns,
             rows: rows.collect(),
@@ -95,12 +100,14 @@ impl Table {
         })
     }
 
-    /// The table as comma-separated values, every number with all its digits.
+    /// The table as comma-separated values, every number with all its digits; names and words that hold a
+    /// comma or a quotation mark stand in quotation marks (RFC 4180).
     #[must_use]
     pub fn to_csv(&self) -> String {
-        let mut text = self.columns.join(",") + "\n";
+        let columns: Vec<String> = self.columns.iter().map(|name| quoted(name)).collect();
+        let mut text = columns.join(",") + "\n";
         for row in &self.rows {
-            let entries: Vec<String> = row.iter().map(Cell::text).collect();
+            let entries: Vec<String> = row.iter().map(|cell| quoted(&cell.text())).collect();
             text += &(entries.join(",") + "\n");
         }
         text
@@ -112,6 +119,36 @@ impl Table {
         // Plain structs with string keys: there is nothing that could fail to serialise.
         serde_json::to_string_pretty(self).unwrap_or_default()
     }
+}
+
+/// An entry as it stands in a line; lines are not broken.
+fn quoted(entry: &str) -> String {
+    let entry = entry.replace(['\n', '\r'], " ");
+    match entry.contains([',', '"']) {
+        true => format!("\"{}\"", entry.replace('"', "\"\"")),
+        false => entry,
+    }
+}
+
+/// The entries of a line, as [`quoted`] wrote them.
+fn entries(line: &str) -> Vec<String> {
+    let (mut entries, mut inside) = (vec![String::new()], false);
+    let mut letters = line.chars().peekable();
+    while let Some(letter) = letters.next() {
+        let Some(entry) = entries.last_mut() else {
+            break;
+        };
+        match letter {
+            '"' if inside && letters.peek() == Some(&'"') => {
+                letters.next();
+                entry.push('"');
+            }
+            '"' => inside = !inside,
+            ',' if !inside => entries.push(String::new()),
+            letter => entry.push(letter),
+        }
+    }
+    entries
 }
 
 impl Cell {
@@ -190,6 +227,7 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
             number("work_of_loads", step.total.loads),
             number("work_of_supports", step.total.supports),
             number("work_of_obstacles", step.total.obstacles),
+            number("work_of_fits", step.total.fits),
             number("elastic_energy", step.total.elastic),
             number("dissipation", step.total.dissipation),
             number("closure", step.total.closure),
@@ -239,6 +277,22 @@ mod tests {
         for text in [table.to_csv(), table.to_json()] {
             assert!(Table::read(&text).unwrap().column("at").unwrap()[6].is_nan());
         }
+    }
+
+    #[test]
+    fn names_and_words_with_commas_stay_one_entry() {
+        // "plain, inexact" is a loop of studies.
+        let words = ["plain, inexact", "said \"so\"", "certified"];
+        let table = Table {
+            columns: vec!["a, b".to_owned(), "c".to_owned(), "d".to_owned()],
+            rows: vec![words.map(|word| Cell::Word(Cow::Borrowed(word))).to_vec()],
+        };
+        let text = table.to_csv();
+        assert_eq!(
+            text,
+            "\"a, b\",c,d\n\"plain, inexact\",\"said \"\"so\"\"\",certified\n"
+        );
+        assert_eq!(Table::read(&text).unwrap(), table);
     }
 
     #[test]

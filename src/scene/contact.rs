@@ -45,34 +45,34 @@ pub struct SceneSurface {
 pub enum SceneObstacle {
     /// Half-space behind a plane (a line in 2D).
     Plane {
-        /// A point of the plane, in metre.
+        /// A point of the plane, in the unit of length.
         point: Vec<f64>,
         /// Direction out of the obstacle, towards the body; any length but zero.
         normal: Vec<f64>,
     },
     /// Circle, in 2D.
     Circle {
-        /// Centre, in metre.
+        /// Centre, in the unit of length.
         center: Vec<f64>,
-        /// Radius `> 0`, in metre.
+        /// Radius `> 0`, in the unit of length.
         #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         radius: f64,
     },
     /// Infinite circular cylinder, in 3D.
     Cylinder {
-        /// A point of the axis, in metre.
+        /// A point of the axis, in the unit of length.
         center: Vec<f64>,
         /// Direction of the axis; any length but zero.
         axis: Vec<f64>,
-        /// Radius `> 0`, in metre.
+        /// Radius `> 0`, in the unit of length.
         #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         radius: f64,
     },
     /// Sphere, in 3D.
     Sphere {
-        /// Centre, in metre.
+        /// Centre, in the unit of length.
         center: Vec<f64>,
-        /// Radius `> 0`, in metre.
+        /// Radius `> 0`, in the unit of length.
         #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         radius: f64,
     },
@@ -188,7 +188,7 @@ fn find_body(place: &str, name: Option<&str>, bodies: &[Body]) -> Result<usize, 
 }
 
 impl SceneObstacle {
-    /// The half-space behind a plane through a point, in metre; `normal` points to the body.
+    /// The half-space behind a plane through a point, in the unit of length; `normal` points to the body.
     #[must_use]
     pub fn plane(point: &[f64], normal: &[f64]) -> Self {
         Self::Plane {

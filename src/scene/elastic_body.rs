@@ -41,11 +41,11 @@ fn unnamed() -> String {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneModel {
-    /// 2D, no strain out of the plane, 1 m deep.
+    /// 2D, no strain out of the plane, one unit of length deep.
     PlaneStrain,
     /// 2D, no stress out of the plane.
     PlaneStress {
-        /// Depth of the plate, `> 0`, in metre.
+        /// Depth of the plate, `> 0`, in the unit of length.
         #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         thickness: f64,
     },
@@ -63,7 +63,7 @@ pub enum SceneModel {
 pub struct SceneMaterial {
     /// Group of cells; all cells when left out, which only a single material may do.
     pub group: Option<String>,
-    /// Young's modulus `E > 0`, in pascal.
+    /// Young's modulus `E > 0`, in force per area.
     #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
     pub young: f64,
     /// Poisson's ratio, `-1 < ν < 0.5`.
@@ -75,7 +75,7 @@ pub struct SceneMaterial {
 const PLANE: &str = "plane_strain, plane_stress or axisymmetric for a mesh in 2D";
 
 impl SceneMaterial {
-    /// A material of all cells: Young's modulus in pascal, Poisson's ratio.
+    /// A material of all cells: Young's modulus in force per area, Poisson's ratio.
     #[must_use]
     pub fn new(young: f64, poisson: f64) -> Self {
         Self {
@@ -136,9 +136,24 @@ impl SceneBody {
     }
 
     /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
-    /// `folder`.
-    pub(super) fn resolve(&self, place: &str, folder: &Path, room: usize) -> Result<Body, Error> {
-        let mesh = self.mesh.mesh(&format!("{place}.mesh"), folder, room)?;
+    /// `folder`. What was changed is added to `notes`.
+    pub(super) fn resolve(
+        &self,
+        place: &str,
+        folder: &Path,
+        room: usize,
+        notes: &mut Vec<String>,
+    ) -> Result<Body, Error> {
+        let of_mesh = format!("{place}.mesh");
+        let mut mesh = self.mesh.mesh(&of_mesh, folder, room)?;
+        if matches!(self.mesh, MeshSource::File { .. }) {
+            match mesh.turn_clockwise_cells() {
+                0 => {}
+                turned => notes.push(format!(
+                    "{of_mesh}: {turned} cells ran clockwise, as of a surface drawn so, and were turned"
+                )),
+            }
+        }
         let model = self.resolve_model(place, mesh.dimension)?;
         let (materials, material_of_cell) = self.resolve_materials(place, &mesh)?;
         let supports = (self.supports.iter().enumerate())

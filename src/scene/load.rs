@@ -14,30 +14,30 @@ use crate::error::Error;
 pub enum SceneLoad {
     /// Force per area along the inward normal.
     Pressure {
-        /// Positive presses, in pascal.
+        /// Positive presses, in force per area.
         pressure: f64,
         /// Group of surface facets.
         group: String,
     },
     /// Force per area.
     Traction {
-        /// In global axes, one entry per axis, in pascal.
+        /// In global axes, one entry per axis, in force per area.
         traction: Vec<f64>,
         /// Group of surface facets.
         group: String,
     },
     /// Force per volume.
     BodyForce {
-        /// In global axes, one entry per axis, in N/m³.
+        /// In global axes, one entry per axis, in force per volume.
         body_force: Vec<f64>,
         /// Group of cells; all cells when left out.
         group: Option<String>,
     },
     /// Force at a node.
     PointForce {
-        /// In global axes, one entry per axis, in newton (plane strain: per metre of depth).
+        /// In global axes, one entry per axis, in the unit of force (plane strain: per unit of depth).
         point_force: Vec<f64>,
-        /// Position of the node, in metre.
+        /// Position of the node, in the unit of length.
         at: Vec<f64>,
     },
 }
@@ -85,7 +85,7 @@ impl<'de> Deserialize<'de> for SceneLoad {
 }
 
 impl SceneLoad {
-    /// Pressure on a group of facets, in pascal; positive into the body.
+    /// Pressure on a group of facets, in force per area; positive into the body.
     #[must_use]
     pub fn pressure(group: &str, pressure: f64) -> Self {
         Self::Pressure {
@@ -94,7 +94,7 @@ impl SceneLoad {
         }
     }
 
-    /// Force per area on a group of facets, one entry per axis, in pascal.
+    /// Force per area on a group of facets, one entry per axis.
     #[must_use]
     pub fn traction(group: &str, traction: &[f64]) -> Self {
         Self::Traction {
@@ -103,7 +103,7 @@ impl SceneLoad {
         }
     }
 
-    /// Force per volume on all cells, one entry per axis, in N/m³.
+    /// Force per volume on all cells, one entry per axis.
     #[must_use]
     pub fn body_force(body_force: &[f64]) -> Self {
         Self::BodyForce {

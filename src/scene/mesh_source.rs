@@ -46,9 +46,9 @@ pub enum MeshSource {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with x, y and cells")]
 pub struct Rectangle {
-    /// Smallest and largest x, in metre.
+    /// Smallest and largest x, in the unit of length.
     pub x: [f64; 2],
-    /// Smallest and largest y, in metre.
+    /// Smallest and largest y, in the unit of length.
     pub y: [f64; 2],
     /// Number of cells along x and y.
     pub cells: [usize; 2],
@@ -66,11 +66,11 @@ pub struct Rectangle {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with x, y, z and cells")]
 pub struct BoxMesh {
-    /// Smallest and largest x, in metre.
+    /// Smallest and largest x, in the unit of length.
     pub x: [f64; 2],
-    /// Smallest and largest y, in metre.
+    /// Smallest and largest y, in the unit of length.
     pub y: [f64; 2],
-    /// Smallest and largest z, in metre.
+    /// Smallest and largest z, in the unit of length.
     pub z: [f64; 2],
     /// Number of cells along x, y and z.
     pub cells: [usize; 3],

@@ -46,6 +46,8 @@ pub use steps::SceneSteps;
 pub(crate) use steps::{LoadHistory, driven};
 pub use support::SceneSupport;
 
+pub(crate) use spelling::nearest;
+
 use mesh_source::MOST_NODES;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
@@ -53,10 +55,17 @@ use mesh_source::MOST_NODES;
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
+    /// Where editors find the schema of scenes; not read.
+    #[serde(default, rename = "$schema")]
+    pub schema: Option<String>,
+    /// Anything the author wants to say; not read.
+    #[serde(default)]
+    pub comment: Option<String>,
     /// Shown in reports.
     #[serde(default)]
     pub title: String,
-    /// Label of the units, such as `m, N, Pa`: shown in reports, never used to convert.
+    /// Label of the units, such as `mm, N, MPa`: shown in reports, never used to convert. All numbers are in
+    /// one consistent system of the author's choice.
     #[serde(default)]
     pub units: String,
     /// The elastic bodies, all in 2D or all in 3D; names differ.
@@ -105,6 +114,8 @@ pub struct Mechanics {
     pub history: LoadHistory,
     /// Settings of the outer loop.
     pub settings: Settings,
+    /// What was changed on the way here, in words.
+    pub notes: Vec<String>,
 }
 
 impl Scene {
@@ -176,6 +187,8 @@ impl Scene {
     /// one that is spelt most alike), a missing one, a value of the wrong type.
     pub fn from_json(text: &str, file: impl AsRef<Path>) -> Result<Self, Error> {
         let file = file.as_ref();
+        // Editors of one system put a mark of byte order in front.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut scene: Self = json::parse(text, &file.display().to_string())?;
         scene.source = file.to_owned();
         Ok(scene)
@@ -188,16 +201,25 @@ impl Scene {
     /// [`Error::Unreadable`], and those of [`Scene::from_json`].
     pub fn from_file(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
-        let bytes = read("scene", path)?;
+        Self::from_bytes(read("scene", path)?, path)
+    }
+
+    /// Reads a scene from the bytes of a JSON file; `file` stands for it as in [`Scene::from_json`].
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Unreadable`] where they are no UTF-8 text, and those of [`Scene::from_json`].
+    pub fn from_bytes(bytes: Vec<u8>, file: impl AsRef<Path>) -> Result<Self, Error> {
+        let file = file.as_ref();
         let text = String::from_utf8(bytes).map_err(|bytes| Error::Unreadable {
             place: "scene".to_owned(),
-            file: path.display().to_string(),
+            file: file.display().to_string(),
             reason: format!(
                 "byte {} is not UTF-8 text; expected JSON",
                 bytes.utf8_error().valid_up_to()
             ),
         })?;
-        Self::from_json(&text, path)
+        Self::from_json(&text, file)
     }
 
     /// Reads or generates the meshes, looks up the groups and checks every value.
@@ -227,8 +249,9 @@ impl Scene {
         }
         let folder = self.source.parent().unwrap_or(Path::new(""));
         let (mut bodies, mut room) = (Vec::with_capacity(self.bodies.len()), MOST_NODES);
+        let mut notes = Vec::new();
         for (at, body) in self.bodies.iter().enumerate() {
-            let body = body.resolve(&format!("bodies[{at}]"), folder, room)?;
+            let body = body.resolve(&format!("bodies[{at}]"), folder, room, &mut notes)?;
             room = room.saturating_sub(body.mesh.nodes.len());
             bodies.push(body);
         }
@@ -246,6 +269,7 @@ impl Scene {
             contacts,
             history,
             settings,
+            notes,
         })
     }
 }
@@ -299,7 +323,8 @@ pub fn schema() -> serde_json::Value {
     schemars::schema_for!(Scene).to_value()
 }
 
-/// Reads a whole file. Folders and pipes are refused: a pipe could hold the program forever.
+/// Reads a whole file. Folders and pipes are refused: a pipe could hold the program forever; what
+/// comes through one is given as standard input.
 pub(crate) fn read(place: &str, path: &Path) -> Result<Vec<u8>, Error> {
     let regular = std::fs::metadata(path).and_then(|found| match found.is_file() {
         true => std::fs::read(path),
@@ -464,7 +489,8 @@ mod tests {
             let keys = of["properties"].as_object().unwrap().keys().cloned();
             keys.collect::<Vec<_>>().join(" ")
         };
-        assert_eq!(keys(&schema), "bodies contacts settings steps title units");
+        let expected = "$schema bodies comment contacts settings steps title units";
+        assert_eq!(keys(&schema), expected);
         assert_eq!(schema["additionalProperties"], false);
         let loads = schema["$defs"]["SceneLoad"]["anyOf"].as_array().unwrap();
         let of_loads: Vec<_> = loads.iter().map(keys).collect();

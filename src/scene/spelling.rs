@@ -4,7 +4,7 @@
 const LONGEST: usize = 200;
 
 /// Nearest name by edit distance, case aside; none where nothing comes close.
-pub(super) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     if name.len() > LONGEST {
         return None;
     }

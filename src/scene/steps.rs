@@ -55,7 +55,7 @@ pub struct SceneSteps {
     #[serde(default)]
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or
-    /// `[instant, x, y, z]`, in metre, rising, under the place of its contact, such as
+    /// `[instant, x, y, z]`, in the unit of length, rising, under the place of its contact, such as
     /// `contacts[0]`. Normals stay those of the obstacle where the scene puts it: gaps follow a
     /// motion `d` along them, as they follow all displacements, which leaves out `d² / 2R` of a
     /// motion across the normals of an obstacle of radius R.

@@ -15,14 +15,14 @@ pub enum SceneSupport {
     Group {
         /// Group of cells, facets, edges or points.
         group: String,
-        /// One entry per axis, in metre; `null` leaves the component free.
+        /// One entry per axis, in the unit of length; `null` leaves the component free.
         displacement: Vec<Option<f64>>,
     },
     /// One node.
     At {
-        /// Position of the node, in metre.
+        /// Position of the node, in the unit of length.
         at: Vec<f64>,
-        /// One entry per axis, in metre; `null` leaves the component free.
+        /// One entry per axis, in the unit of length; `null` leaves the component free.
         displacement: Vec<Option<f64>>,
     },
 }
@@ -54,7 +54,7 @@ impl<'de> Deserialize<'de> for SceneSupport {
 }
 
 impl SceneSupport {
-    /// Displacement of the nodes of a group, one entry per axis, in metre; `None` leaves it free.
+    /// Displacement of the nodes of a group, one entry per axis, in the unit of length; `None` leaves it free.
     #[must_use]
     pub fn of(group: &str, displacement: &[Option<f64>]) -> Self {
         Self::Group {

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::pipeline::{Solution, solve};
 use crate::problem::ContactProblem;
 use crate::report::{KnownTotal, Report, StageSeconds, StudiedMesh, Table};
-use crate::scene::Scene;
+use crate::scene::{Scene, nearest};
 
 /// Shorter solves, in second, are repeated.
 pub(super) const SHORT: f64 = 0.25;
@@ -107,7 +107,7 @@ fn known(report: &Report, plan: &Plan) -> Result<Vec<KnownTotal>, Error> {
             place: "plan.known".to_owned(),
             what: "total",
             name: name.clone(),
-            nearest: None,
+            nearest: nearest(name, table.columns.iter().map(String::as_str)).map(str::to_owned),
             known: table.columns.clone(),
         })?;
         let computed = column.first().copied().unwrap_or(f64::NAN);

@@ -83,6 +83,8 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         displacements: &displacements,
         motions: &[],
         balances: &balances,
+        extremes: &vec![body::Extremes::default(); mechanics.bodies.len()],
+        support_forces: &vec![Vec::new(); mechanics.bodies.len()],
         departure: none,
         stages: &StageWork::default(),
         origins: &[],

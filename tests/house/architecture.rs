@@ -48,9 +48,11 @@ const MAY_IMPORT: [(&str, &[&str]); 20] = [
         ],
     ),
     ("deck", &["body", "mesh_file", "scene", "error"]),
+    ("validity", &["body", "contact", "kkt", "report"]),
     (
         "pipeline",
         &[
+            "validity",
             "body",
             "contact",
             "problem",

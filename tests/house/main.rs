@@ -10,6 +10,7 @@ mod square;
 mod architecture;
 mod cases;
 mod constants;
+mod limits_of_a_mesh;
 mod links;
 mod only_what_a_scene_needs;
 mod picture;

@@ -4,9 +4,9 @@
 use std::path::PathBuf;
 
 use dpana::alternation::{Outcome, Seconds, Status, SweepRecord, Work};
-use dpana::body::{Body, CellKind, Facet, Mesh, Model};
+use dpana::body::{Body, CellKind, Extremes, Facet, Mesh, Model};
 use dpana::contact::{ContactNode, ContactPair, ContactSurface, Obstacle, Opposite, OppositeNodes};
-use dpana::kkt::{Balance, Judge, Worst, WorstNode};
+use dpana::kkt::{Balance, ContactStatus, Judge, Worst, WorstNode};
 use dpana::problem::{ContactProblem, Operator};
 use dpana::report::vtu::{BodyFields, body_vtu, contact_path, contact_vtu};
 use dpana::report::{Report, ReportParts, StageWork, replace_file};
@@ -62,6 +62,8 @@ struct Row {
     outcome: Outcome,
     displacements: Vec<Vec<f64>>,
     balances: Vec<Balance>,
+    extremes: Vec<Extremes>,
+    support_forces: Vec<Vec<[f64; 3]>>,
 }
 
 impl Row {
@@ -143,6 +145,8 @@ impl Row {
             },
             displacements: vec![displacement],
             balances: vec![Balance::default()],
+            extremes: vec![Extremes::default()],
+            support_forces: vec![Vec::new()],
         }
     }
 
@@ -169,6 +173,8 @@ impl Row {
             scaled: 0.5,
             node: 1,
         };
+        row.extremes.push(Extremes::default());
+        row.support_forces.push(Vec::new());
         row.balances.push(Balance {
             equilibrium: unsteady,
             ..Balance::default()
@@ -192,6 +198,8 @@ impl Row {
             displacements: &self.displacements,
             motions: &[],
             balances: &self.balances,
+            extremes: &self.extremes,
+            support_forces: &self.support_forces,
             departure: Worst::default(),
             stages: &STAGES,
             origins: &[],
@@ -254,7 +262,9 @@ fn each_pair_has_its_totals_and_what_the_other_side_receives() {
 
 #[test]
 fn slip_is_relative_to_the_other_side() {
-    let contacts = &Row::on_beam().json()["contacts"];
+    let mut row = Row::on_beam();
+    row.outcome.verdict.status[2] = ContactStatus::Slip;
+    let contacts = &row.json()["contacts"];
     // 0.3 m of the row's node minus 0.1 m of the beam's middle; node 1's end does not move.
     let slip = contacts[2]["slip"][0].as_f64().unwrap();
     assert!((slip - 0.2).abs() < 1e-15);
@@ -289,7 +299,7 @@ fn contacts_are_told_in_global_axes_and_with_the_dimension_of_the_body() {
     );
     assert_eq!(
         (&contacts[2]["gap"], &contacts[2]["slip"]),
-        (&json!(0.25), &json!([0.3, 0.0]))
+        (&json!(0.25), &json!([0.0, 0.0]))
     );
 }
 
@@ -299,11 +309,13 @@ fn names_of_the_report_are_stable() {
     let names = [
         "certificate",
         "contacts",
+        "extremes",
         "history",
         "notes",
         "quality",
         "size",
         "status",
+        "supports",
         "title",
         "totals",
         "units",
@@ -437,7 +449,7 @@ fn notes_name_the_body_where_there_are_several() {
 fn the_summary_fits_on_a_screen_and_shouts_when_nothing_is_certified() {
     let mut row = Row::new();
     let text = row.report().summary();
-    assert!(text.lines().count() <= 28, "{text}");
+    assert!(text.lines().count() <= 30, "{text}");
     for line in [
         "status          certified",
         "units           m, N, Pa",
@@ -640,7 +652,10 @@ fn the_contact_surface_is_read_back_and_blank_where_there_is_no_contact() {
     let piece = read_back("row_contact.vtu", &text);
     assert_eq!(piece.cells.types, [CellType::Line; 3]);
     assert_eq!(connectivity(&piece).0, [0, 1, 1, 2, 2, 3]);
-    assert_eq!(array(&piece.data.point, "state"), [2.0, 1.0, 0.0, -1.0]);
+    assert_eq!(array(&piece.data.point, "state"), [1.0, 2.0, 0.0, -1.0]);
+    // Slip and stick, stick and open, open and none.
+    assert_eq!(array(&piece.data.cell, "state"), [2.0, 2.0, 0.0]);
+    assert!(text.contains("state: 0 open, 1 slip, 2 stick"));
     assert_eq!(array(&piece.data.point, "node"), [0.0, 1.0, 2.0, 3.0]);
     let pressure = array(&piece.data.point, "pressure");
     assert_eq!(pressure[..3], [8.0, 6.0, 0.0]);
@@ -650,7 +665,9 @@ fn the_contact_surface_is_read_back_and_blank_where_there_is_no_contact() {
         [-4.0, 0.0, 0.0]
     );
     assert_eq!(array(&piece.data.point, "gap")[..3], [0.0, 0.0, 0.25]);
-    assert_eq!(array(&piece.data.point, "slip")[6..9], [0.3, 0.0, 0.0]);
+    assert_eq!(array(&piece.data.point, "slip")[..3], [0.1, 0.0, 0.0]);
+    // What is open does not slip, however far it moved along.
+    assert_eq!(array(&piece.data.point, "slip")[6..9], [0.0; 3]);
 }
 
 #[test]

@@ -123,6 +123,44 @@ fn loose(pull: f64) -> String {
 }
 
 #[test]
+fn other_numbers_of_cells_are_refused_for_meshes_from_files() {
+    let folder = folder("levels");
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/meshes/A_block_n32.msh"
+    );
+    let mut scene: serde_json::Value = serde_json::from_str(&scene(PRESSED)).unwrap();
+    scene["bodies"][0]["mesh"] = serde_json::json!({ "file": file });
+    scene["contacts"][0]["group"] = "contact".into();
+    fs::write(folder.join("file.json"), scene.to_string()).unwrap();
+    for asked in [["--levels", "3"], ["--refine", "1,2"]] {
+        let arguments = [&["study", "file.json", "--out", "s"][..], &asked].concat();
+        let (code, said) = refused(&folder, &arguments);
+        assert_eq!(code, Some(2));
+        assert!(
+            said.contains(asked[0]) && said.contains("--meshes"),
+            "{said}"
+        );
+    }
+    assert!(!folder.join("s").exists());
+}
+
+#[test]
+fn friction_is_not_advised_to_a_body_that_lifts() {
+    let folder = folder("lifts");
+    let mut lifted: serde_json::Value = serde_json::from_str(&loose(0.0)).unwrap();
+    lifted["bodies"][0]["loads"][0] = serde_json::json!({ "body_force": [0, 10] });
+    fs::write(folder.join("lifted.json"), lifted.to_string()).unwrap();
+    fs::write(folder.join("slides.json"), loose(3.5)).unwrap();
+    for (scene, helps) in [("lifted.json", false), ("slides.json", true)] {
+        let output = dpana(&folder, &["solve", scene]);
+        let said = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(said.contains("by more friction"), helps, "{said}");
+        assert_eq!(said.contains("held by no friction"), !helps, "{said}");
+    }
+}
+
+#[test]
 fn limits_are_printed_and_written() {
     let folder = folder("limit");
     fs::write(folder.join("loose.json"), loose(1.5)).unwrap();

@@ -8,9 +8,11 @@ mod stacks;
 
 mod bad_input;
 mod bad_pairs;
+mod checked_scenes;
 mod command_line;
 mod damaged_mesh;
 mod decks;
 mod hostile_input;
 mod shipped_scenes;
+mod streams;
 mod unsolvable_scenes;

@@ -73,7 +73,7 @@ fn a_support_that_drags_a_contact_with_friction_is_refused() {
     let rough = Scene::from_json(&scene.to_string(), "scene.json").unwrap();
     check(
         &rough,
-        &["contacts[0]: node 0", "friction 0.3", "0.001 m along x"],
+        &["contacts[0]: node 0", "friction 0.3", "0.001 along x"],
     );
     // Without friction the same motion is nobody's concern.
     let smooth = with(scene, "/contacts/0/friction", json!(0));

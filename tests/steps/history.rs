@@ -78,6 +78,41 @@ fn work_is_energy_and_friction_and_what_a_step_does_not_tell_is_small() {
 }
 
 #[test]
+fn the_energy_of_a_fit_is_explained_and_what_closes_in_the_first_step_is_told() {
+    // Between a held top and a plane that lies 0.01 deep in the block, ν = 0, without any load: a strain of
+    // 0.01 on 2 m² takes ½ · 1000 · 0.01² · 2 J.
+    let mut fit = block(&json!({"at": [1, 2]}));
+    fit["bodies"][0]["materials"][0]["poisson"] = json!(0);
+    fit["bodies"][0]["supports"] = json!([{"group": "top", "displacement": [0, 0]}]);
+    fit["contacts"][0]["obstacle"]["plane"]["point"] = json!([0, 0.01]);
+    let reports = history(&scene(&fit));
+    for report in &reports {
+        let total = report.step.as_ref().unwrap().total;
+        assert!((total.fits - 0.1).abs() < 1e-13, "{total:?}");
+        assert!((total.elastic - 0.1).abs() < 1e-13, "{total:?}");
+        assert!(total.closure.abs() < 1e-14, "{total:?}");
+    }
+    let second = reports[1].step.as_ref().unwrap().ledger;
+    assert_eq!(second.fits, 0.0);
+    assert!(
+        reports.iter().all(|report| report.notes.is_empty()),
+        "{:?}",
+        reports[0].notes
+    );
+    // The same strain by closing a gap of 0.005 first; nothing else is there that could close.
+    fit["bodies"][0]["supports"] = json!([{"group": "top", "displacement": [0, -0.015]}]);
+    fit["contacts"][0]["obstacle"]["plane"]["point"] = json!([0, -0.005]);
+    let reports = history(&scene(&fit));
+    assert!(
+        reports[0].notes[0].contains("the first step closes 13 contacts"),
+        "{:?}",
+        reports[0].notes
+    );
+    assert!(reports[0].notes[0].contains("100 % of the normal force"));
+    assert!(reports[1].notes.is_empty());
+}
+
+#[test]
 fn a_step_in_proportion_with_constant_states_leaves_nothing_open() {
     // From rest, and on from there: everything grows in proportion.
     let steps = json!({"at": [0.5, 1, 2, 4], "factors": {
@@ -259,7 +294,7 @@ fn a_state_of_another_scene_is_refused() {
     assert!(refused(&rocked, &short).contains("state.displacements[0]: expected"));
     let mut short = first.clone();
     short.ledger.pop();
-    assert!(refused(&rocked, &short).contains("state.ledger: expected 6 entries, found 5"));
+    assert!(refused(&rocked, &short).contains("state.ledger: expected 7 entries, found 6"));
     let mut late = first;
     late.steps = 0;
     assert!(refused(&rocked, &late).contains("state: step 0"));

@@ -364,6 +364,7 @@ fn round(reports: &[Report]) -> ReportedLedger {
         loads: after.loads - before.loads,
         supports: after.supports - before.supports,
         obstacles: after.obstacles - before.obstacles,
+        fits: after.fits - before.fits,
         elastic: after.elastic - before.elastic,
         dissipation: after.dissipation - before.dissipation,
         closure: after.closure - before.closure,

@@ -22,6 +22,9 @@ const VANISHING: f64 = 1e-12;
 /// small displacements.
 const INTERFERENCE: f64 = 0.05;
 
+/// Part of a limit that is round-off of the coordinates: what is stated to be just within it is.
+const WITHIN: f64 = 1.0 + 1e-9;
+
 /// Weight that is round-off.
 const NEGLIGIBLE: f64 = 4.0 * f64::EPSILON;
 
@@ -75,7 +78,7 @@ pub(in crate::contact) fn average(
     let side2 = Surface::new(mesh2, facets2, &format!("{place}.opposite"))?;
     let extents = [(mesh1, facets1), (mesh2, facets2)]
         .map(|(mesh, facets)| Bounds::around(mesh, facets.iter()).diagonal());
-    let depth = INTERFERENCE * extents[0].min(extents[1]);
+    let depth = WITHIN * INTERFERENCE * extents[0].min(extents[1]);
     let reach = extents[0].max(extents[1]);
     let opposite = Opposite::new(mesh2, &side2.facets, &side2.geometries, [depth, reach]);
     let overlaps = Overlaps::new(mesh1, mesh2);
@@ -91,7 +94,7 @@ pub(in crate::contact) fn average(
                 place: place.to_owned(),
                 position: span.from.into(),
                 overlap: span.length(),
-                allowed: depth,
+                allowed: depth / WITHIN,
             });
         }
         let pieces2 = &side2.pieces;

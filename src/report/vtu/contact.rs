@@ -13,9 +13,10 @@ use crate::report::{Contact, Report, ReportedContactState};
 ///
 /// `facets` come with the index of their body, `displacements` are per body and unknown.
 /// Point arrays: `displacement`, `pressure`, `friction_traction`, `gap`, `slip`, `state`
-/// (0 open, 1 stick, 2 slip, −1 no contact), `body`, `node` (of its mesh); cells have
-/// `body`. A value that does not exist (pressure without area, gap of what is no contact)
-/// is NaN, which plots leave blank.
+/// (0 open, 1 slip, 2 stick, −1 no contact), `body`, `node` (of its mesh). Cells have `body` and
+/// `state`: that of most of their contacts, of two alike the one that holds more. The file says
+/// these numbers in a comment. A value that does not exist (pressure without area, gap of what is
+/// no contact) is NaN, which plots leave blank.
 ///
 /// # Errors
 ///
@@ -66,12 +67,16 @@ pub fn contact_vtu(
         );
         document.reals("gap", 1, scalar(|contact| Some(contact.gap)));
         document.reals("slip", 3, vector(|contact| Some(&contact.slip)));
+        document.comment(STATES);
         let states = contacts.iter().map(|contact| vtk_state(contact.state));
         document.integers("state", states.chain(std::iter::repeat_n(-1, blank)));
         document.integers("body", points.iter().map(|&(body, _)| body as i32));
         document.integers("node", points.iter().map(|&(_, node)| node as i32));
     });
     document.section(Section::Cells, |document| {
+        document.comment(STATES);
+        let cells = surface.points_of_cell.iter();
+        document.integers("state", cells.map(|points| state_of(points, contacts)));
         let bodies = surface.body_of_cell.iter();
         document.integers("body", bodies.map(|&body| body as i32));
     });
@@ -87,6 +92,7 @@ struct Surface {
     points: Vec<(usize, usize)>,
     cells: Cells,
     body_of_cell: Vec<usize>,
+    points_of_cell: Vec<Vec<usize>>,
 }
 
 impl Surface {
@@ -130,8 +136,10 @@ impl Surface {
     }
 
     fn push(&mut self, body: usize, corners: Vec<usize>) {
-        self.cells.push(vtk_facet(corners.len()), corners);
+        self.cells
+            .push(vtk_facet(corners.len()), corners.iter().copied());
         self.body_of_cell.push(body);
+        self.points_of_cell.push(corners);
     }
 }
 
@@ -160,10 +168,25 @@ fn vtk_facet(points: usize) -> u8 {
     }
 }
 
+/// What the numbers of `state` mean, for those who open the file. They rise with what a contact
+/// holds, so that a plot that blends them passes slip on the way from open to stick.
+const STATES: &str = "state: 0 open, 1 slip, 2 stick, -1 no contact";
+
 fn vtk_state(state: ReportedContactState) -> i32 {
     match state {
         ReportedContactState::Open => 0,
-        ReportedContactState::Stick => 1,
-        ReportedContactState::Slip => 2,
+        ReportedContactState::Slip => 1,
+        ReportedContactState::Stick => 2,
     }
+}
+
+/// The state of most of a facet's contacts, of two alike the one that holds more; points behind the
+/// contacts are none.
+fn state_of(points: &[usize], contacts: &[Contact]) -> i32 {
+    let states = points.iter().filter_map(|&point| contacts.get(point));
+    let mut counts = [0; 3];
+    states.for_each(|contact| counts[vtk_state(contact.state) as usize] += 1);
+    let held = (0..3).filter(|&state| counts[state] > 0);
+    let most = held.max_by_key(|&state| (counts[state], state));
+    most.map_or(-1, |state| state as i32)
 }

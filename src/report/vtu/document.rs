@@ -70,6 +70,11 @@ impl Document {
         );
     }
 
+    /// Says something to whoever opens the file.
+    pub(super) fn comment(&mut self, words: &str) {
+        self.text += &format!("<!-- {words} -->\n");
+    }
+
     /// Appends one whole number per entry.
     pub(super) fn integers(&mut self, name: &str, values: impl Iterator<Item = i32>) {
         self.array("Int32", name, 1, values.flat_map(i32::to_le_bytes));

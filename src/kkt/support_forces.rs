@@ -1,0 +1,30 @@
+//! What every support carries.
+
+use super::body_state::BodyState;
+use crate::error::Error;
+
+/// Sum of the support reactions s (K4) of every support of a body on it, in newton, in global axes.
+/// A displacement that several supports give is carried by the first of them.
+///
+/// # Errors
+///
+/// Those of [`balance`](super::balance()).
+pub(crate) fn support_forces(state: &BodyState<'_>) -> Result<Vec<[f64; 3]>, Error> {
+    state.check()?;
+    let supports = &state.body.supports;
+    if supports.is_empty() {
+        return Ok(Vec::new());
+    }
+    let axes = state.dimension();
+    let mut reactions = state.held_reactions(&state.contact_forces());
+    let sums = supports.iter().map(|support| {
+        let mut sum = [0.0; 3];
+        for &node in &support.nodes {
+            for axis in (0..axes).filter(|axis| support.displacement[*axis].is_some()) {
+                sum[axis] += std::mem::take(&mut reactions[node * axes + axis]);
+            }
+        }
+        sum
+    });
+    Ok(sums.collect())
+}

@@ -1,0 +1,52 @@
+//! VALIDITY: what mesh and theory cannot give, said with numbers.
+//!
+//! The judge certifies the laws on the mesh as it is. What the mesh does not resolve, and what small
+//! displacements leave out, no residual shows: it is looked for here, in what a solve has found anyway.
+//!
+//! | what | file |
+//! |---|---|
+//! | facets that turn too far, or stand off by as much as bodies approach (V1) | `facets` |
+//! | one contact that carries all, deep obstacles, nothing that touches, a first step | `resolution` |
+//! | strain, rotation and slip beyond small displacements | `small_displacement` |
+
+mod facets;
+mod resolution;
+mod small_displacement;
+
+use crate::contact::ContactNode;
+use crate::kkt::ContactStatus;
+use crate::report::ReportParts;
+
+/// What is in doubt about a solved scene, in words with numbers; nothing is said of one without
+/// equilibrium.
+#[must_use]
+pub fn notes(parts: &ReportParts<'_>) -> Vec<String> {
+    if parts.outcome.failure.is_some() {
+        return Vec::new();
+    }
+    let mut notes = Vec::new();
+    for (index, pair) in parts.pairs.iter().enumerate() {
+        let pressed = pressed(parts, index);
+        let found = [
+            resolution::single(&pressed),
+            facets::facets(parts, index, &pressed),
+            facets::corner(parts, index, &pressed),
+            resolution::deep(parts, index),
+        ];
+        let found = found.into_iter().flatten();
+        notes.extend(found.map(|note| format!("{}: {note}", pair.place)));
+    }
+    notes.extend(resolution::nothing_touches(parts));
+    notes.extend(resolution::first_step(parts));
+    notes.extend(small_displacement::notes(parts));
+    notes
+}
+
+/// Contacts of a pair that carry.
+fn pressed<'a>(parts: &ReportParts<'a>, pair: usize) -> Vec<&'a ContactNode> {
+    let contacts = parts.surface.nodes.iter();
+    let pressed = contacts
+        .zip(&parts.outcome.verdict.status)
+        .filter(|(contact, status)| contact.pair == pair && **status != ContactStatus::Open);
+    pressed.map(|(contact, _)| contact).collect()
+}
