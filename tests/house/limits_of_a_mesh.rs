@@ -160,8 +160,8 @@ fn facets_that_turn_too_far_or_stand_off_by_as_much_as_bodies_approach_are_told(
         &ring(20, 0.03),
         &["by 0.002048 in the mean", "each other by 0.01231"],
     );
-    // A facet of one degree stands off by 4e-5: much less than 0.005.
-    let fine = ring(180, 0.005).notes;
+    // Facets of one degree stand off by 2.5e-5: nothing beside a contact of many of them.
+    let fine = ring(180, 0.1).notes;
     assert!(fine.iter().all(|note| !note.contains("facets")), "{fine:?}");
 }
 
