@@ -86,7 +86,7 @@ impl<'a> CoulombProgram<'a> {
     /// Solves (H8) for the load `e` on the modes and the shift `s` per contact, in metre.
     ///
     /// `None` if the cone solver gives up. If nothing holds the load, the remainder says so: ask
-    /// [`RigidContacts::admissible`](super::RigidContacts::admissible) first.
+    /// [`RigidContacts::admissible`](crate::limit::RigidContacts::admissible) first.
     pub(crate) fn solve(
         &mut self,
         load: &[f64],
