@@ -51,7 +51,9 @@ pub use flat_punch::{FlatLinePunch, FlatRoundPunch};
 pub use hertz_line::HertzLine;
 pub use hertz_sphere::HertzSphere;
 pub use incline::Incline;
-pub use moduli::{Elastic, contact_radius};
+pub use moduli::Elastic;
+#[cfg(feature = "cli")]
+pub(crate) use moduli::contact_radius;
 pub use stick_ratio::{friction_of_stick_line, friction_of_stick_sphere};
 pub use stick_ratio::{stick_ratio_line, stick_ratio_sphere};
 pub use uniform_patch::uniform_strain;

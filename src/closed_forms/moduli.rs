@@ -85,7 +85,8 @@ impl Elastic {
 /// # Errors
 ///
 /// [`Error::OutOfRange`] for a radius that is zero or NaN, and where `1/R₁ + 1/R₂` is not positive.
-pub fn contact_radius(one: f64, other: f64) -> Result<f64, Error> {
+#[cfg(feature = "cli")]
+pub(crate) fn contact_radius(one: f64, other: f64) -> Result<f64, Error> {
     let curved = |place, radius: f64| {
         let accept = radius != 0.0 && !radius.is_nan();
         Ok(1.0 / within(place, radius, accept, "a radius, not zero")?)

@@ -254,8 +254,8 @@ fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {
     }
     let place = format!("{place}.file");
     let bytes = read(&place, path)?;
-    let mut mesh = gmsh::parse_bytes(&bytes, &path.display().to_string())
-        .map_err(|error| error.within(place))?;
+    let mut mesh =
+        gmsh::parse(&bytes, &path.display().to_string()).map_err(|error| error.within(place))?;
     for position in &mut mesh.nodes {
         *position = position.map(|coordinate| coordinate * scale);
     }

@@ -417,7 +417,7 @@ fn a_mesh_file_that_is_missing_or_no_mesh_is_refused() {
 fn a_truncated_or_binary_mesh_is_refused_at_its_line() {
     let whole = std::fs::read(format!("{FOLDER}/meshes/A_block_n32.msh")).unwrap();
     let read = |bytes: &[u8]| {
-        dpana::mesh_file::gmsh::parse_bytes(bytes, "A.msh")
+        dpana::mesh_file::gmsh::parse(bytes, "A.msh")
             .map(|mesh| mesh.cell_count().to_string())
             .unwrap_or_else(|error| error.to_string())
     };

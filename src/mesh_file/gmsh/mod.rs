@@ -30,14 +30,17 @@ enum Version {
     Four,
 }
 
-/// Reads a mesh from bytes; `name` stands for the file in messages.
+/// Reads a mesh from text or bytes; `name` stands for the file in messages.
 ///
 /// # Errors
 ///
-/// As [`parse`], and bytes that are not text (binary files).
-pub fn parse_bytes(bytes: &[u8], name: &str) -> Result<Mesh, Error> {
+/// [`Error::Mesh`] with the line: bytes that are not text, a binary or truncated file, a version other
+/// than 2.2 and 4.1, counts that do not match, unknown tags, an element that is neither linear nor
+/// quadratic, a plane mesh that does not lie in a plane `z = constant`, no cell at all.
+pub fn parse(content: impl AsRef<[u8]>, name: &str) -> Result<Mesh, Error> {
+    let bytes = content.as_ref();
     let broken = match std::str::from_utf8(bytes) {
-        Ok(text) => return parse(text, name),
+        Ok(text) => return read(text, name),
         Err(broken) => broken.valid_up_to(),
     };
     // A header that says "binary" explains more than the first odd byte behind it.
@@ -56,14 +59,7 @@ pub fn parse_bytes(bytes: &[u8], name: &str) -> Result<Mesh, Error> {
     })
 }
 
-/// Reads a mesh from text; `name` stands for the file in messages.
-///
-/// # Errors
-///
-/// [`Error::Mesh`] with the line: a binary or truncated file, a version other than 2.2
-/// and 4.1, counts that do not match, unknown tags, an element that is neither linear nor quadratic, a
-/// plane mesh that does not lie in a plane `z = constant`, no cell at all.
-pub fn parse(text: &str, name: &str) -> Result<Mesh, Error> {
+fn read(text: &str, name: &str) -> Result<Mesh, Error> {
     let mut lines = Lines::new(text, name);
     let version = header(&mut lines)?;
     let mut contents = Contents::default();
@@ -259,7 +255,7 @@ mod tests {
             ("D_patch3d_4_3.msh", CellKind::Hex8, 125 + 64, 64 + 27, 16),
         ] {
             let bytes = std::fs::read(format!("{folder}{file}")).unwrap();
-            let mesh = parse_bytes(&bytes, file).unwrap();
+            let mesh = parse(&bytes, file).unwrap();
             assert_eq!((mesh.nodes.len(), mesh.cell_count()), (nodes, cells));
             assert!(mesh.cells().all(|cell| cell.kind == kind));
             let Group::Facets(facets) = &mesh.groups["contact"] else {
@@ -318,7 +314,7 @@ mod tests {
     fn bytes_that_are_not_text_are_an_error() {
         let mut bytes = SQUARE_2.as_bytes().to_vec();
         bytes[60] = 0xff;
-        let error = parse_bytes(&bytes, "part.msh").unwrap_err().to_string();
+        let error = parse(&bytes, "part.msh").unwrap_err().to_string();
         assert!(error.starts_with("part.msh:6: byte 0xff"), "{error}");
     }
 }

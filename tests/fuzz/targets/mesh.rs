@@ -14,7 +14,7 @@ use libfuzzer_sys::fuzz_target;
 const NODES: usize = 400;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(mesh) = gmsh::parse_bytes(bytes, "part.msh") {
+    if let Ok(mesh) = gmsh::parse(bytes, "part.msh") {
         if mesh.nodes.len() <= NODES {
             let _ = attempt(scene(mesh, bytes.len()));
         }
