@@ -5,12 +5,13 @@ use std::fs;
 use std::path::Path;
 
 /// Folders whose constants decide how a problem is solved or judged.
-const FOLDERS: [&str; 7] = [
+const FOLDERS: [&str; 8] = [
     "contact",
     "problem",
     "condensation",
     "cone",
     "limit",
+    "half_space",
     "kkt",
     "alternation",
 ];
