@@ -76,7 +76,7 @@ pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
     Checked, Solution, SolvedStep, Variation, cases, cases_watched, check, limit, solve,
-    solve_steps,
+    solve_half_space, solve_steps,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

@@ -1,4 +1,4 @@
-//! The command line: solve, cases, limit, study, check, schema, verify.
+//! The command line: solve, cases, limit, half-space, study, check, schema, verify.
 
 mod commands;
 
@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{Cases, Check, Limit, Solve, Study, Verify};
+use commands::{Cases, Check, HalfSpace, Limit, Solve, Study, Verify};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -31,6 +31,8 @@ enum Command {
     /// Say by what factor each load can grow before nothing holds the bodies that only
     /// contact holds, and how much friction they take.
     Limit(Limit),
+    /// Solve contact of elastic half-spaces on a grid, without a mesh.
+    HalfSpace(HalfSpace),
     /// Run a scene over meshes, tolerances, friction and loops, and put tables and figures of
     /// time and error on a page.
     Study(Study),
@@ -47,6 +49,7 @@ fn main() -> ExitCode {
         Command::Solve(arguments) => commands::solve(&arguments),
         Command::Cases(arguments) => commands::cases(&arguments),
         Command::Limit(arguments) => commands::limit(&arguments),
+        Command::HalfSpace(arguments) => commands::half_space(&arguments),
         Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
         Command::Schema => commands::schema(),

@@ -48,6 +48,7 @@
 //! Work does not grow with the grid in outer iterations (some 10), and like its square root in
 //! products on rough surfaces. Bits do not depend on the number of threads.
 
+mod clusters;
 mod compliance;
 mod coupled;
 mod finish;
@@ -69,6 +70,7 @@ mod symbol;
 mod transform;
 mod vectors;
 
+pub use clusters::clusters;
 pub use compliance::ElasticHalf;
 pub use grid::Grid;
 pub use operator::{HalfSpace, Surroundings};

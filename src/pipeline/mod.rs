@@ -3,6 +3,7 @@
 
 mod cases;
 mod check;
+mod half_space;
 mod halving;
 mod limit;
 mod steps;
@@ -27,6 +28,7 @@ use crate::{alternation, body, kkt, validity};
 
 pub use cases::{Variation, cases, cases_watched};
 pub use check::{Checked, check};
+pub use half_space::solve_half_space;
 pub(crate) use halving::Halving;
 pub use limit::limit;
 pub use steps::{SolvedStep, solve_steps};

@@ -13,10 +13,10 @@ use crate::error::Error;
 /// # Errors
 ///
 /// [`Error::Write`] with the path and what the system says.
-pub fn replace_file(path: &Path, text: &str) -> Result<(), Error> {
+pub fn replace_file(path: &Path, content: &(impl AsRef<[u8]> + ?Sized)) -> Result<(), Error> {
     let written = match place(path) {
-        Place::File(file) => replace(&file, text),
-        Place::Stream => fs::write(path, text),
+        Place::File(file) => replace(&file, content.as_ref()),
+        Place::Stream => fs::write(path, content),
     };
     written.map_err(|reason| Error::Write {
         path: path.display().to_string(),
@@ -45,10 +45,10 @@ fn place(path: &Path) -> Place {
     }
 }
 
-fn replace(path: &Path, text: &str) -> io::Result<()> {
+fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
     let mut partial = path.as_os_str().to_owned();
     partial.push(format!(".{}.partial", std::process::id()));
-    let written = fs::write(&partial, text).and_then(|()| fs::rename(&partial, path));
+    let written = fs::write(&partial, content).and_then(|()| fs::rename(&partial, path));
     if written.is_err() {
         // Nothing is lost if this fails too: the first reason is the one to tell.
         let _ = fs::remove_file(&partial);

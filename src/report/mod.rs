@@ -29,6 +29,7 @@ mod failure;
 #[cfg(feature = "cli")]
 mod figure;
 mod file;
+mod half_space;
 #[cfg(feature = "cli")]
 mod hard;
 mod limit;
@@ -64,6 +65,7 @@ pub use failure::ReportedFailure;
 #[cfg(feature = "cli")]
 pub use figure::plot;
 pub use file::replace_file;
+pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy};
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};

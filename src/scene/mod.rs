@@ -15,6 +15,8 @@
 mod bare;
 mod contact;
 mod elastic_body;
+mod half_space;
+mod height_map;
 mod json;
 mod load;
 mod mesh_source;
@@ -38,6 +40,10 @@ use crate::error::Error;
 pub use bare::BareProblem;
 pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
+pub use half_space::{
+    HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
+    SceneSurfaceShape, SceneSurroundings,
+};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
 pub use saved_state::SavedState;

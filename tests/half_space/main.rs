@@ -1,10 +1,14 @@
 //! Claims about the elastic half-space: closed forms, work, grids, input.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, clippy::panic)]
+
+#[path = "../program/mod.rs"]
+mod program;
 
 mod answers;
 mod cone_programs;
 mod grids;
 mod rolling;
+mod scenes;
 mod work;
 
 use std::sync::Arc;

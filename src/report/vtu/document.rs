@@ -44,6 +44,25 @@ impl Document {
         Self { text }
     }
 
+    /// An image of cells in the plane z = 0, origin and sides in metre.
+    pub(super) fn image(origin: [f64; 2], spacing: [f64; 2], cells: [usize; 2]) -> Self {
+        let ([x, y], [dx, dy], [columns, rows]) = (origin, spacing, cells);
+        let extent = format!("0 {columns} 0 {rows} 0 0");
+        let text = format!(
+            "<?xml version=\"1.0\"?>\n\
+             <VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
+             <ImageData WholeExtent=\"{extent}\" Origin=\"{x} {y} 0\" Spacing=\"{dx} {dy} 1\">\n\
+             <Piece Extent=\"{extent}\">\n"
+        );
+        Self { text }
+    }
+
+    /// Closes an image.
+    pub(super) fn finish_image(mut self) -> String {
+        self.text += "</Piece>\n</ImageData>\n</VTKFile>\n";
+        self.text
+    }
+
     /// Opens a section and appends its arrays.
     pub(super) fn section(&mut self, section: Section, arrays: impl FnOnce(&mut Self)) {
         let tag = match section {

@@ -7,12 +7,14 @@ mod base64;
 mod body;
 mod contact;
 mod document;
+mod image;
 mod series;
 
 use std::path::{Path, PathBuf};
 
 pub use body::{BodyFields, body_vtu};
 pub use contact::contact_vtu;
+pub use image::half_space_vti;
 pub use series::{series, step_path};
 
 /// `block.vtu` → `block_contact.vtu`: where the contact surface goes when the bodies go to `path`.

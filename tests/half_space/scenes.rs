@@ -1,0 +1,179 @@
+//! Scenes of half-spaces, from the library and the command line.
+
+use std::fs;
+use std::path::Path;
+
+use dpana::half_space::{Drag, Press};
+use dpana::scene::HalfSpaceScene;
+use dpana::solve_half_space;
+use vtkio::model::{DataSet, Piece};
+
+use crate::program::{dpana, folder};
+
+const ROUGH: &str = "examples/half_space/rough.json";
+
+fn scene(text: &str) -> Result<HalfSpaceScene, String> {
+    HalfSpaceScene::from_json(text, "").map_err(|error| error.to_string())
+}
+
+/// A sphere on 16 × 16 cells; `more` is put behind its other keys.
+fn sphere(surface: &str, more: &str) -> String {
+    format!(
+        r#"{{"half_space": {{"material": {{"young": 2, "poisson": 0.3}}, "cells": [16, 16],
+        "size": [1, 1]}}, "surface": [{surface}]{more}}}"#
+    )
+}
+
+const BALL: &str = r#"{"sphere": {"radius": 10}}"#;
+
+#[test]
+fn the_shipped_history_is_certified_and_remembers_its_slip() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(ROUGH);
+    let scene = HalfSpaceScene::from_file(path).unwrap();
+    let mut shifts = Vec::new();
+    let report = solve_half_space(&scene, |_, _, outcome| {
+        shifts.push(outcome.state.shift[0]);
+        Ok(())
+    })
+    .unwrap();
+    assert!(report.steps.iter().all(|step| step.certified()));
+    let area: Vec<f64> = report.steps.iter().map(|step| step.area_fraction).collect();
+    assert!(area[0] < area[1] && area[1] < area[2], "{area:?}");
+    // Sheared to and fro by the same force: on the way back it stops short of the mirror image, as
+    // Mindlin's sphere does.
+    assert!(
+        shifts[3] > 0.0 && shifts[4] < 0.0 && -shifts[4] < shifts[3],
+        "{shifts:?}"
+    );
+}
+
+#[test]
+fn a_step_keeps_what_it_does_not_name() {
+    let steps = r#", "approach": 0.001, "friction": 0.2, "steps": [{}, {"shift": [1e-4, 0]}, {"load": 0.001}]"#;
+    let history = scene(&sphere(BALL, steps)).unwrap().history().unwrap();
+    assert_eq!(
+        history.steps,
+        [
+            (Press::Approach(0.001), Drag::Shift([0.0; 2])),
+            (Press::Approach(0.001), Drag::Shift([1e-4, 0.0])),
+            (Press::Load(0.001), Drag::Shift([1e-4, 0.0])),
+        ]
+    );
+}
+
+#[test]
+fn what_is_wrong_in_a_scene_is_told_with_its_place() {
+    let far = r#"{"self_affine": {"hurst": 2, "roll_off": 1, "cut_off": 1, "slope": 1}}"#;
+    let missing = r#"{"height_map": {"file": "nowhere.npy"}}"#;
+    for (text, place) in [
+        (sphere(BALL, ""), "scene: neither `load` nor `approach`"),
+        (
+            sphere(BALL, r#", "load": 1, "approach": 1"#),
+            "scene: both `load` and `approach`",
+        ),
+        (
+            sphere(
+                BALL,
+                r#", "load": 1, "steps": [{"shift": [0, 0], "force": [0, 0]}]"#,
+            ),
+            "steps[0]: both",
+        ),
+        (sphere(BALL, r#", "load": -1"#), "load: -1"),
+        (
+            sphere(BALL, r#", "load": 1, "friction": -1"#),
+            "friction[0]: -1",
+        ),
+        (
+            sphere(r#"{"cone": {"slope": 0}}"#, r#", "load": 1"#),
+            "surface[0].slope: 0",
+        ),
+        (
+            sphere(far, r#", "load": 1"#),
+            "surface[0]: surface.hurst: 2",
+        ),
+        (
+            sphere(missing, r#", "load": 1"#),
+            "surface[0].file: cannot read the file nowhere.npy",
+        ),
+    ] {
+        let found = scene(&text).unwrap().history().unwrap_err().to_string();
+        assert!(found.starts_with(place), "{found} for {place}");
+    }
+    let unknown = scene(&sphere(BALL, r#", "laod": 1"#)).unwrap_err();
+    assert!(unknown.contains("did you mean `load`"), "{unknown}");
+}
+
+#[test]
+fn height_maps_press_with_their_peaks_and_must_fit() {
+    let folder = folder("height_maps");
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    let map = "# Width: 2 µm\n# Height: 2 µm\n# Value units: nm\n0 1\n5 2\n";
+    write("map.txt", map);
+    let text = |more: &str, cells: &str| {
+        format!(
+            r#"{{"half_space": {{"material": {{"young": 1, "poisson": 0.3}}, "cells": {cells},
+            "size": [0.002, 0.002]}}, "load": 1,
+            "surface": [{{"height_map": {{"file": "map.txt"{more}}}}}]}}"#
+        )
+    };
+    let gap = |more: &str, cells: &str| {
+        let scene = HalfSpaceScene::from_json(&text(more, cells), folder.join("scene.json"));
+        scene
+            .unwrap()
+            .history()
+            .map(|history| history.problem.initial_gap().to_vec())
+    };
+    // The peak of 5 nm touches first; the scene is in mm.
+    let found = gap(r#", "unit": "mm""#, "[2, 2]").unwrap();
+    for (found, expected) in found.iter().zip([5e-6, 4e-6, 0.0, 3e-6]) {
+        assert!((found - expected).abs() < 1e-18);
+    }
+    let refused = |more: &str, cells: &str| gap(more, cells).unwrap_err().to_string();
+    assert!(refused("", "[2, 2]").contains("expected `unit`"));
+    assert!(refused(r#", "unit": "mm""#, "[2, 3]").contains("3 rows of 2"));
+    assert!(refused(r#", "unit": "m""#, "[2, 2]").contains("half_space.size[0]"));
+    assert!(refused(r#", "unit": "inch""#, "[2, 2]").contains("unit `inch`"));
+}
+
+#[test]
+fn the_command_line_writes_what_numpy_and_vtk_read() {
+    let folder = folder("half_space");
+    fs::write(
+        folder.join("ball.json"),
+        sphere(BALL, r#", "load": 0.001, "friction": 0.1"#),
+    )
+    .unwrap();
+    let outputs = [
+        "--vti", "a.vti", "--npy", "a.npy", "--table", "a.csv", "--report", "a.json",
+    ];
+    let output = dpana(
+        &folder,
+        &[["half-space", "ball.json"].as_slice(), &outputs].concat(),
+    );
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let pressure = fs::read(folder.join("a_pressure.npy")).unwrap();
+    let start = pressure.len() - 16 * 16 * 8;
+    assert_eq!((start % 64, &pressure[..6]), (0, b"\x93NUMPY".as_slice()));
+    let numbers = pressure[start..]
+        .as_chunks()
+        .0
+        .iter()
+        .map(|bytes| f64::from_le_bytes(*bytes));
+    // Σ p A, A = 1/256.
+    assert!((numbers.sum::<f64>() / 256.0 / 0.001 - 1.0).abs() < 1e-9);
+    let image = vtkio::Vtk::import(folder.join("a.vti")).unwrap();
+    let DataSet::ImageData { mut pieces, .. } = image.data else {
+        panic!("no image");
+    };
+    let Piece::Inline(piece) = pieces.remove(0) else {
+        panic!("no inline piece");
+    };
+    assert_eq!(piece.data.cell.len(), 6);
+    let table = fs::read_to_string(folder.join("a.csv")).unwrap();
+    assert_eq!(table.lines().count(), 2);
+    let refused = dpana(
+        &folder,
+        &["half-space", "ball.json", "--vti", "nowhere/a.vti"],
+    );
+    assert_eq!(refused.status.code(), Some(2));
+}
