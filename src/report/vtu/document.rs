@@ -44,14 +44,15 @@ impl Document {
         Self { text }
     }
 
-    /// An image of cells in the plane z = 0, origin and sides in metre.
+    /// An image of one layer of cells below z = 0, origin and sides in metre: readers count none in a
+    /// layer without thickness.
     pub(super) fn image(origin: [f64; 2], spacing: [f64; 2], cells: [usize; 2]) -> Self {
         let ([x, y], [dx, dy], [columns, rows]) = (origin, spacing, cells);
-        let extent = format!("0 {columns} 0 {rows} 0 0");
+        let (extent, dz) = (format!("0 {columns} 0 {rows} 0 1"), dx.min(dy));
         let text = format!(
             "<?xml version=\"1.0\"?>\n\
              <VTKFile type=\"ImageData\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n\
-             <ImageData WholeExtent=\"{extent}\" Origin=\"{x} {y} 0\" Spacing=\"{dx} {dy} 1\">\n\
+             <ImageData WholeExtent=\"{extent}\" Origin=\"{x} {y} -{dz}\" Spacing=\"{dx} {dy} {dz}\">\n\
              <Piece Extent=\"{extent}\">\n"
         );
         Self { text }

@@ -4,7 +4,7 @@ use super::document::{Document, Section};
 use crate::half_space::HalfSpaceProblem;
 use crate::report::half_space::HalfSpaceField;
 
-/// The cells of the grid with their fields, in the plane z = 0.
+/// The cells of the grid with their fields, one layer below z = 0.
 #[must_use]
 pub fn half_space_vti(problem: &HalfSpaceProblem, fields: &[HalfSpaceField]) -> String {
     let grid = problem.operator().grid();
