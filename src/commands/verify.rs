@@ -49,7 +49,7 @@ fn hard(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     let mut told = Ok(());
     let solved = hard_cases(reach, |row| {
         if told.is_ok() {
-            told = say(&arguments.report, &row);
+            told = say(&arguments.report, row);
         }
     })?;
     told?;
