@@ -1,4 +1,4 @@
-//! The command line: solve, cases, limit, half-space, study, check, schema, verify.
+//! The command line: solve, cases, limit, half-space, study, check, import, schema, verify.
 
 mod commands;
 
@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use commands::{Cases, Check, HalfSpace, Limit, Solve, Study, Verify};
+use commands::{Cases, Check, HalfSpace, Import, Limit, Solve, Study, Verify};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -38,6 +38,8 @@ enum Command {
     Study(Study),
     /// Read a scene and its meshes and say what is wrong, without solving.
     Check(Check),
+    /// Turn an Abaqus or CalculiX deck into a scene and Gmsh meshes.
+    Import(Import),
     /// Print the JSON Schema of scenes.
     Schema,
     /// Compute scenes whose answers are known, and say by how much they miss them.
@@ -52,6 +54,7 @@ fn main() -> ExitCode {
         Command::HalfSpace(arguments) => commands::half_space(&arguments),
         Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::Import(arguments) => commands::import(&arguments),
         Command::Schema => commands::schema(),
         Command::Verify(arguments) => commands::verify(&arguments),
     };

@@ -3,6 +3,7 @@
 mod cases;
 mod check;
 mod half_space;
+mod import;
 mod limit;
 mod outputs;
 mod progress;
@@ -15,6 +16,7 @@ mod verify;
 pub(crate) use cases::{Cases, cases};
 pub(crate) use check::{Check, check};
 pub(crate) use half_space::{HalfSpace, half_space};
+pub(crate) use import::{Import, import};
 pub(crate) use limit::{Limit, limit};
 pub(crate) use schema::schema;
 pub(crate) use solve::{Solve, solve};

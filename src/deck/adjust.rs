@@ -5,8 +5,9 @@
 //! ```
 //!
 //! A node is moved where it overlaps, by at most the size of the facet, or is no farther off than the
-//! stated distance; its foot must lie on the surface. Middle nodes move with their corners: by half
-//! of what the two move.
+//! stated distance; its foot must lie on the surface. Middle nodes of the slave surface are nodes like
+//! others: on a curved one they may touch where corners do not. Those of edges into the body move with
+//! the corners, by half of what the two move.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -38,10 +39,10 @@ pub(super) fn adjust(contents: &mut Contents, pair: &Pair<'_, '_>) {
     let pieces: Vec<Piece> = (master.iter())
         .flat_map(|&side| pieces(contents, side))
         .collect();
-    let corners = slave.iter().flat_map(|&side| contents.corners(side));
-    let corners: BTreeSet<usize> = corners.collect();
+    let nodes = slave.iter().flat_map(|&side| contents.facet(side));
+    let nodes: BTreeSet<usize> = nodes.collect();
     let mut moves: BTreeMap<usize, Point> = BTreeMap::new();
-    for node in corners {
+    for &node in &nodes {
         let reach = match &pair.adjust {
             Adjust::No => continue,
             Adjust::Within(distance) => *distance,
@@ -52,7 +53,7 @@ pub(super) fn adjust(contents: &mut Contents, pair: &Pair<'_, '_>) {
             moves.insert(node, by);
         }
     }
-    follow(contents, &mut moves);
+    follow(contents, &nodes, &mut moves);
     for (node, by) in moves {
         let position = &mut contents.positions[node];
         *position = plus(*position, by, 1.0);
@@ -72,8 +73,8 @@ fn onto(pieces: &[Piece], point: Point, reach: f64) -> Option<Point> {
     moved.then(|| piece.normal.map(|n| -distance * n))
 }
 
-/// Adds the middle nodes of all cells whose corners move.
-fn follow(contents: &Contents, moves: &mut BTreeMap<usize, Point>) {
+/// Adds the middle nodes beside the slave surface of all cells whose corners move.
+fn follow(contents: &Contents, slave: &BTreeSet<usize>, moves: &mut BTreeMap<usize, Point>) {
     let mut middles = BTreeMap::new();
     for element in &contents.elements {
         let kind = element.kind.cell;
@@ -81,7 +82,8 @@ fn follow(contents: &Contents, moves: &mut BTreeMap<usize, Point>) {
             continue;
         }
         let corners = 0..kind.corner_count();
-        for at in kind.corner_count()..kind.node_count() {
+        let middles_of_cell = kind.corner_count()..kind.node_count();
+        for at in middles_of_cell.filter(|&at| !slave.contains(&element.nodes[at])) {
             let middle = kind.position(at);
             let ends = corners.clone().flat_map(|a| (0..a).map(move |b| (a, b)));
             let between = |&(a, b): &(usize, usize)| {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::statement::Stated;
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, fields};
+use crate::mesh_file::abaqus::Card;
 
 /// A table of factors over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,9 +36,9 @@ impl Amplitude {
         card.one_of("VALUE", &["RELATIVE"])?;
         card.one_of("DEFINITION", &["TABULAR"])?;
         let mut numbers = Vec::new();
-        for row in &card.rows {
-            for word in fields(row) {
-                numbers.push(card.number_of(row, word, "a time or a factor")?);
+        for row in card.rows(0) {
+            for word in row.words() {
+                numbers.push(row.number_of(word, "a time or a factor")?);
             }
         }
         let (points, rest) = numbers.as_chunks::<2>();

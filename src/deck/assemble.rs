@@ -174,8 +174,10 @@ impl Stock<'_, '_> {
                 if !alone && !self.can_meet(own, other) {
                     continue;
                 }
-                let softest = [own, other].map(|sides| self.cell_stiffness(sides));
-                check_hard(law, softest[0].min(softest[1]), notes)?;
+                let cells = own.union(other).map(|side| self.stiffness_and_size(*side));
+                let least = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].min(b[1])];
+                let [young, size] = cells.reduce(least).unwrap_or([1.0; 2]);
+                check_hard(law, young / size, notes)?;
                 let [group, against] = &pair.surfaces;
                 bodies[slave].add_surface(&self.contents, group, own);
                 bodies[master].add_surface(&self.contents, against, other);
@@ -216,17 +218,14 @@ impl Stock<'_, '_> {
         (0..3).all(|axis| a[0][axis] <= b[1][axis] + near && b[0][axis] <= a[1][axis] + near)
     }
 
-    /// The least E / h of the cells at faces; h is the longest side of the face.
-    fn cell_stiffness(&self, sides: &BTreeSet<Side>) -> f64 {
-        let of_side = |&side: &Side| {
-            let corners = self.contents.corners(side);
-            let place = |at: usize| self.contents.positions[corners[at % corners.len()]];
-            let edges = (0..corners.len()).map(|at| (place(at), place(at + 1)));
-            let edges = edges.map(|(a, b)| (0..3).fold(0.0_f64, |sum, k| sum.hypot(a[k] - b[k])));
-            let [young, _] = self.materials.of(side.0).elastic.unwrap_or_default();
-            young / edges.fold(0.0, f64::max)
-        };
-        sides.iter().map(of_side).fold(f64::INFINITY, f64::min)
+    /// Young's modulus of the cell at a face, and the longest edge of the face.
+    fn stiffness_and_size(&self, side: Side) -> [f64; 2] {
+        let corners = self.contents.corners(side);
+        let place = |at: usize| self.contents.positions[corners[at % corners.len()]];
+        let edges = (0..corners.len()).map(|at| (place(at), place(at + 1)));
+        let edges = edges.map(|(a, b)| (0..3).fold(0.0_f64, |sum, k| sum.hypot(a[k] - b[k])));
+        let [young, _] = self.materials.of(side.0).elastic.unwrap_or_default();
+        [young, edges.fold(0.0, f64::max)]
     }
 }
 

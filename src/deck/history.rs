@@ -258,13 +258,13 @@ fn period(card: &Card<'_>, notes: &mut Notes) -> Result<f64, Error> {
     if card.get("STABILIZE").is_some() {
         notes.add(card, "`STABILIZE` is not needed here");
     }
-    let Some(row) = card.rows.first() else {
+    let Some(row) = card.rows(0).next() else {
         return Ok(1.0);
     };
-    card.number(row, 0, "an increment", Some(1.0))?;
+    row.number(0, "an increment", 1.0)?;
     notes.add(
         card,
         "increments are not needed here: one state per step and time of an amplitude",
     );
-    card.number(row, 1, "a period", Some(1.0))
+    row.number(1, "a period", 1.0)
 }

@@ -7,7 +7,7 @@
 
 use super::statement::{Notes, Statement};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, Contents, bare, fields};
+use crate::mesh_file::abaqus::{Card, Contents, bare};
 
 /// A law of contact.
 #[derive(Clone, Debug)]
@@ -117,26 +117,15 @@ impl<'a, 'c> Contacts<'a, 'c> {
         let interaction = self.laws.iter().position(|law| law.name == name);
         let unknown = || card.error(format!("surface interaction `{name}` is not known"));
         let interaction = interaction.ok_or_else(unknown)?;
-        if card.rows.is_empty() {
+        if card.rows(scope).next().is_none() {
             return Err(card.error("expected a line with slave and master surface"));
         }
-        for row in &card.rows {
-            let words: Vec<String> = fields(row).map(bare).collect();
+        for row in card.rows(scope) {
+            let words: Vec<String> = row.words().map(bare).collect();
             let [slave, master] = &words[..] else {
-                return Err(card.at(row, "expected slave and master surface"));
+                return Err(row.error("expected slave and master surface"));
             };
-            let surface = |name: &String| {
-                let full = contents.cells.full(scope, name);
-                let found = [full, name.clone()].into_iter();
-                let mut found = found.filter(|name| contents.surfaces.contains_key(name));
-                match found.next() {
-                    Some(found) if contents.surfaces[&found].is_empty() => {
-                        Err(card.at(row, format!("surface `{name}` has no outer face")))
-                    }
-                    Some(found) => Ok(found),
-                    None => Err(card.at(row, format!("surface `{name}` is not known"))),
-                }
-            };
+            let surface = |name| Ok(contents.surface(row, name)?.0.clone());
             self.pairs.push(Pair {
                 surfaces: [surface(slave)?, surface(master)?],
                 interaction,
@@ -156,7 +145,7 @@ fn adjust(scope: usize, card: &Card<'_>, contents: &Contents) -> Result<Adjust, 
         Ok(distance) if distance >= 0.0 && distance.is_finite() => Ok(Adjust::Within(distance)),
         Ok(distance) => Err(card.error(format!("`ADJUST={distance}`; expected one from 0"))),
         Err(_) => {
-            let nodes = contents.nodes.members(scope, (card, &card.line), value)?;
+            let nodes = contents.nodes.members(card.head(scope), value)?;
             Ok(Adjust::Set(nodes))
         }
     }
@@ -176,27 +165,27 @@ fn stiffness(card: &Card<'_>) -> Result<Option<f64>, Error> {
         return Ok(None);
     }
     let row = card.row("the stiffness")?;
-    let stated = card.number(&row, 0, "a stiffness or a distance", None)?;
+    let stated = row.number(0, "a stiffness or a distance", None)?;
     let stiffness = match kind {
         "LINEAR" => stated,
         // p = p₀ exp(−g ln 100 / c₀) has the slope p₀ ln 100 / c₀ where the gap closes.
-        _ => card.number(&row, 1, "a pressure", None)? * 100.0_f64.ln() / stated,
+        _ => row.number(1, "a pressure", None)? * 100.0_f64.ln() / stated,
     };
     match stiffness > 0.0 {
         true => Ok(Some(stiffness)),
-        false => Err(card.at(&row, "expected a stiffness above 0")),
+        false => Err(row.error("expected a stiffness above 0")),
     }
 }
 
 fn friction(card: &Card<'_>, notes: &mut Notes) -> Result<f64, Error> {
     card.only(&["SLIPTOLERANCE", "ELASTICSLIP", "LAGRANGE"])?;
     let row = card.row("the coefficient of friction, one for all pressures")?;
-    let friction = card.number(&row, 0, "a coefficient of friction", None)?;
+    let friction = row.number(0, "a coefficient of friction", None)?;
     if friction < 0.0 {
-        return Err(card.at(&row, format!("coefficient {friction}; expected one from 0")));
+        return Err(row.error(format!("coefficient {friction}; expected one from 0")));
     }
-    if fields(&row).count() > 1 {
-        card.number(&row, 1, "a stick slope", Some(0.0))?;
+    if row.words().count() > 1 {
+        row.number(1, "a stick slope", 0.0)?;
         notes.add(
             card,
             "a stick slope is not needed here: what sticks does not move",
@@ -212,7 +201,7 @@ const SOFT: f64 = 10.0;
 const HARD: f64 = 100.0;
 
 /// Refuses a law so soft that leaving its stiffness out would change the answer, and notes what is left
-/// out; `cell` is the least E / h of the cells at the surfaces.
+/// out; `cell` is E / h, of the softest and of the smallest cell at the surfaces.
 pub(super) fn check_hard(
     law: &Interaction<'_, '_>,
     cell: f64,

@@ -6,7 +6,7 @@ use super::material::Materials;
 use super::parts::Parts;
 use super::statement::{Notes, Stated};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, Contents, Line, Side, Space, bare, fields};
+use crate::mesh_file::abaqus::{Contents, Row, Side, Space, bare};
 
 /// What a number is given for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -44,9 +44,6 @@ const NAMED: [(&str, [bool; 3]); 8] = [
     ("ZASYMM", [true, true, false]),
 ];
 
-/// Last degree of freedom of a rotation; from the dimension on they are no matter of solids.
-const LAST_ROTATION: u64 = 6;
-
 impl Reader<'_> {
     /// All that a card says, row by row.
     pub(super) fn read(
@@ -61,14 +58,13 @@ impl Reader<'_> {
         card.one_of("OP", &["NEW", "MOD"])?;
         card.one_of("TYPE", &["DISPLACEMENT"])?;
         let mut given = Vec::new();
-        for row in &card.rows {
-            let of_row = match card.name.as_str() {
-                "BOUNDARY" => self.held(scope, card, row, notes)?,
-                "CLOAD" => self.forces(scope, card, row, notes)?,
-                "DSLOAD" => self.surface_pressure(scope, card, row)?,
-                _ => self.distributed(scope, card, row)?,
-            };
-            given.extend(of_row);
+        for row in card.rows(scope) {
+            given.extend(match card.name.as_str() {
+                "BOUNDARY" => self.held(row, notes)?,
+                "CLOAD" => self.forces(row, notes)?,
+                "DSLOAD" => self.surface_pressure(row)?,
+                _ => self.distributed(row)?,
+            });
         }
         Ok(given)
     }
@@ -80,121 +76,77 @@ impl Reader<'_> {
         }
     }
 
-    /// The nodes of a word that some element has.
-    fn nodes(
-        &self,
-        scope: usize,
-        (card, row): (&Card<'_>, &Line<'_>),
-        word: &str,
-        notes: &mut Notes,
-    ) -> Result<Vec<usize>, Error> {
-        let mut nodes = self.contents.nodes.members(scope, (card, row), word)?;
+    /// The nodes of a row's first word that some element has.
+    fn nodes(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<usize>, Error> {
+        let mut nodes = self.contents.nodes.members(row, row.word(0))?;
         let all = nodes.len();
         nodes.retain(|&node| self.parts.of_node[node].is_some());
         if nodes.len() < all {
-            notes.add(card, "nodes that belong to no element are left out");
+            notes.add(row.card, "nodes that belong to no element are left out");
         }
         Ok(nodes)
     }
 
-    fn held(
-        &self,
-        scope: usize,
-        card: &Card<'_>,
-        row: &Line<'_>,
-        notes: &mut Notes,
-    ) -> Result<Vec<Given>, Error> {
-        let words: Vec<&str> = fields(row).collect();
-        let nodes = self.nodes(scope, (card, row), words[0], notes)?;
-        let word = |at: usize| words.get(at).copied().unwrap_or_default();
-        let mut axes = [false; 3];
-        let mut value = 0.0;
-        if let Some((_, held)) = NAMED.iter().find(|(name, _)| *name == bare(word(1))) {
-            axes = *held;
-        } else {
-            let first = card.label(row, word(1), "degree of freedom")?;
-            let last = match word(2) {
-                "" => first,
-                word => card.label(row, word, "degree of freedom")?,
-            };
-            value = card.number(row, 3, "a displacement", Some(0.0))?;
-            if last < first || last > LAST_ROTATION {
-                let reason = format!("degrees of freedom {first} to {last}; expected 1 to 3");
-                return Err(card.at(row, reason));
+    fn held(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<Given>, Error> {
+        let nodes = self.nodes(row, notes)?;
+        let named = NAMED.iter().find(|(name, _)| *name == bare(row.word(1)));
+        let (axes, value) = match named {
+            Some((_, held)) => (*held, 0.0),
+            None => {
+                let first = degree(row, row.word(1))?;
+                let last = match row.word(2) {
+                    "" => first,
+                    word => degree(row, word)?,
+                };
+                if last < first {
+                    let reason = format!("degrees of freedom {first} to {last}; expected a rise");
+                    return Err(row.error(reason));
+                }
+                let axes = [1, 2, 3].map(|dof| (first..=last).contains(&dof));
+                (axes, row.number(3, "a displacement", 0.0)?)
             }
-            (first..=last.min(3)).for_each(|dof| axes[dof as usize - 1] = true);
-        }
+        };
         let axes = (0..self.dimension()).filter(|&axis| axes[axis]);
         let each = axes.flat_map(|axis| nodes.iter().map(move |&node| Slot::Held(node, axis)));
         Ok(each.map(|slot| (slot, value)).collect())
     }
 
-    fn forces(
-        &self,
-        scope: usize,
-        card: &Card<'_>,
-        row: &Line<'_>,
-        notes: &mut Notes,
-    ) -> Result<Vec<Given>, Error> {
-        let words: Vec<&str> = fields(row).collect();
-        let nodes = self.nodes(scope, (card, row), words[0], notes)?;
-        let dof = card.label(
-            row,
-            words.get(1).copied().unwrap_or_default(),
-            "degree of freedom",
-        )?;
-        if dof > LAST_ROTATION {
-            return Err(card.at(row, format!("degree of freedom {dof}; expected 1 to 3")));
-        }
-        let force = card.number(row, 2, "a force", None)?;
-        if dof as usize > self.dimension() {
+    fn forces(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<Given>, Error> {
+        let nodes = self.nodes(row, notes)?;
+        let axis = degree(row, row.word(1))? - 1;
+        let force = row.number(2, "a force", None)?;
+        if axis >= self.dimension() {
             return Ok(Vec::new());
         }
-        let each = nodes.into_iter().map(|node| {
-            let part = self.parts.of_node[node].map(|part| &self.parts.parts[part]);
-            let depth = match part {
-                Some(part) if part.space == Space::PlaneStrain => part.thickness,
-                _ => 1.0,
-            };
-            (Slot::Force(node, dof as usize - 1), force / depth)
-        });
-        Ok(each.collect())
+        let depth = |node: usize| match self.parts.of_node[node] {
+            Some(part) => self.parts.parts[part].depth(),
+            None => 1.0,
+        };
+        let each = nodes.into_iter();
+        Ok(each
+            .map(|node| (Slot::Force(node, axis), force / depth(node)))
+            .collect())
     }
 
-    fn surface_pressure(
-        &self,
-        scope: usize,
-        card: &Card<'_>,
-        row: &Line<'_>,
-    ) -> Result<Vec<Given>, Error> {
-        let words: Vec<String> = fields(row).map(bare).collect();
-        let label = words.get(1).map(String::as_str).unwrap_or_default();
+    fn surface_pressure(&self, row: Row<'_, '_>) -> Result<Vec<Given>, Error> {
+        let label = bare(row.word(1));
         if label != "P" {
-            return Err(card.at(row, format!("load `{label}` is not read; accepted: P")));
+            return Err(row.error(format!("load `{label}` is not read; accepted: P")));
         }
-        let full = self.contents.cells.full(scope, &words[0]);
-        let surface = self.contents.surfaces.get(&full);
-        let surface = surface.or_else(|| self.contents.surfaces.get(&words[0]));
-        let unknown = || card.at(row, format!("surface `{}` is not known", words[0]));
-        let sides = surface.ok_or_else(unknown)?;
-        let pressure = card.number(row, 2, "a pressure", None)?;
+        let sides = self.contents.surface(row, row.word(0))?;
+        let pressure = row.number(2, "a pressure", None)?;
         Ok(sides
+            .1
             .iter()
             .map(|&side| (Slot::Pressure(side), pressure))
             .collect())
     }
 
     /// Pressure on faces, weight, force per volume.
-    fn distributed(
-        &self,
-        scope: usize,
-        card: &Card<'_>,
-        row: &Line<'_>,
-    ) -> Result<Vec<Given>, Error> {
-        let words: Vec<&str> = fields(row).collect();
-        let cells = self.contents.cells.members(scope, (card, row), words[0])?;
-        let label = words.get(1).map(|word| bare(word)).unwrap_or_default();
-        let value = card.number(row, 2, "a load", None)?;
+    fn distributed(&self, row: Row<'_, '_>) -> Result<Vec<Given>, Error> {
+        let cells = self.contents.cells.members(row, row.word(0))?;
+        let label = bare(row.word(1));
+        let value = row.number(2, "a load", None)?;
         let along = |axis: usize| {
             Ok(cells
                 .iter()
@@ -205,46 +157,47 @@ impl Reader<'_> {
             "BX" => along(0),
             "BY" => along(1),
             "BZ" if self.dimension() == 3 => along(2),
-            "GRAV" => self.weight(card, row, &cells, value),
+            "GRAV" => self.weight(row, &cells, value),
             _ if label.len() == 2 && label.starts_with('P') => cells
                 .into_iter()
                 .map(|cell| {
                     let side = self.contents.side(cell, &label, 'P', &self.outer);
-                    Ok((Slot::Pressure(side.map_err(|e| card.at(row, e))?), value))
+                    Ok((Slot::Pressure(side.map_err(|e| row.error(e))?), value))
                 })
                 .collect(),
-            _ => Err(card.at(
-                row,
-                format!("load `{label}` is not read; accepted: P1 to P6, GRAV, BX, BY, BZ"),
-            )),
+            _ => Err(row.error(format!(
+                "load `{label}` is not read; accepted: P1 to P6, GRAV, BX, BY, BZ"
+            ))),
         }
     }
 
-    fn weight(
-        &self,
-        card: &Card<'_>,
-        row: &Line<'_>,
-        cells: &[usize],
-        gravity: f64,
-    ) -> Result<Vec<Given>, Error> {
+    fn weight(&self, row: Row<'_, '_>, cells: &[usize], gravity: f64) -> Result<Vec<Given>, Error> {
         let mut direction = [0.0; 3];
         for (axis, component) in direction.iter_mut().enumerate() {
-            *component = card.number(row, 3 + axis, "a direction", Some(0.0))?;
+            *component = row.number(3 + axis, "a direction", 0.0)?;
         }
         let length = direction.iter().fold(0.0_f64, |sum, x| sum.hypot(*x));
         if (length - 1.0).abs() > 1e-6 {
             let reason = format!("direction of length {length}; expected one of length 1");
-            return Err(card.at(row, reason));
+            return Err(row.error(reason));
         }
         let mut given = Vec::new();
         for &cell in cells {
             let material = self.materials.of(cell);
-            let missing = || card.at(row, format!("material `{}` has no *DENSITY", material.name));
+            let missing = || row.error(format!("material `{}` has no *DENSITY", material.name));
             let density = material.density.ok_or_else(missing)?;
             let axes = direction.iter().take(self.dimension()).enumerate();
             let axes = axes.filter(|(_, component)| **component != 0.0);
             given.extend(axes.map(|(axis, n)| (Slot::Weight(cell, axis), density * gravity * n)));
         }
         Ok(given)
+    }
+}
+
+/// A degree of freedom, from 1; those of rotations are no matter of solids and are passed over.
+fn degree(row: Row<'_, '_>, word: &str) -> Result<usize, Error> {
+    match row.label(word, "degree of freedom")? {
+        dof @ 1..=6 => Ok(dof as usize),
+        dof => Err(row.error(format!("degree of freedom {dof}; expected 1 to 3"))),
     }
 }

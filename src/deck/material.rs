@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::statement::{Notes, Statement};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, Contents, fields};
+use crate::mesh_file::abaqus::{Card, Contents};
 
 /// An elastic material.
 #[derive(Clone, Debug)]
@@ -57,7 +57,7 @@ impl Materials {
         for &(scope, card) in model.iter().filter(|(_, card)| card.name == "SOLIDSECTION") {
             let section = read.section(scope, card, contents, notes)?;
             let set = card.need("ELSET")?;
-            for cell in contents.cells.members(scope, (card, &card.line), set)? {
+            for cell in contents.cells.members(card.head(scope), set)? {
                 read.of_cell[cell] = read.sections.len();
             }
             read.sections.push(section);
@@ -99,7 +99,7 @@ impl Materials {
             }
             "DENSITY" => {
                 let row = card.row("one density")?;
-                let density = card.number(&row, 0, "a density", None)?;
+                let density = row.number(0, "a density", None)?;
                 last.ok_or_else(orphan)?.density = Some(density);
             }
             "EXPANSION" => self.expansion = true,
@@ -131,12 +131,9 @@ impl Materials {
         if self.materials[found].elastic.is_none() {
             return Err(card.error(format!("material `{material}` has no *ELASTIC")));
         }
-        let thickness = match card.rows[..] {
-            [] => 1.0,
-            _ => {
-                let row = card.row("the thickness")?;
-                card.number(&row, 0, "a thickness", Some(1.0))?
-            }
+        let thickness = match card.rows(scope).next() {
+            None => 1.0,
+            Some(_) => card.row("the thickness")?.number(0, "a thickness", 1.0)?,
         };
         if thickness <= 0.0 {
             return Err(card.error(format!("thickness {thickness}; expected one above 0")));
@@ -152,17 +149,12 @@ impl Materials {
 
 fn elastic(card: &Card<'_>) -> Result<[f64; 2], Error> {
     let row = card.row("Young's modulus and Poisson's ratio, the same at every temperature")?;
-    let count = fields(&row).count();
-    if count < 2 {
-        return Err(card.at(&row, "expected Young's modulus and Poisson's ratio"));
-    }
-    let young = card.number(&row, 0, "Young's modulus", None)?;
-    let poisson = card.number(&row, 1, "Poisson's ratio", None)?;
+    let young = row.number(0, "Young's modulus", None)?;
+    let poisson = row.number(1, "Poisson's ratio", None)?;
     if young <= 0.0 || poisson <= -1.0 || poisson >= 0.5 {
-        return Err(card.at(
-            &row,
-            format!("moduli {young}, {poisson}; expected E > 0 and -1 < ν < 0.5"),
-        ));
+        return Err(row.error(format!(
+            "moduli {young}, {poisson}; expected E > 0 and -1 < ν < 0.5"
+        )));
     }
     Ok([young, poisson])
 }

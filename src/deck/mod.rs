@@ -9,11 +9,21 @@
 //! assemble           the scene
 //! ```
 //!
-//! Static steps of elastic solids, plane and axisymmetric bodies in contact. What changes the mechanics
-//! and is not read is refused by file, line and keyword; what steers a numerical method is noted and
-//! left: penalty stiffness of hard contact, stick slopes, increments. Displacements are small, also
-//! where a deck says NLGEOM. Numbers keep the deck's units. Sources: Abaqus keywords reference,
-//! CalculiX CrunchiX user's manual.
+//! | read | how |
+//! |---|---|
+//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D8, C3D10, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; every connected part is a body |
+//! | `*SURFACE` | by faces, by elements (all outer faces), by nodes (outer faces whose corners are all in the set) |
+//! | `*MATERIAL`, `*ELASTIC`, `*DENSITY`, `*SOLID SECTION` | isotropic; a thickness is that of plane stress, and what forces of plane strain are divided by |
+//! | `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*SURFACE BEHAVIOR`, `*FRICTION` | hard contact with friction, slave first; a penalty is left out, with a note below 100 E / h of the cells there, and refused as a soft layer below 10 E / h; stick slopes are left out |
+//! | `ADJUST=` | slave nodes that overlap, or are near, or of a set, are moved onto the master surface |
+//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, ramp, end with `OP=NEW`; supports stay |
+//! | `*STEP`, `*STATIC` | an instant per step and per time of an amplitude; `NLGEOM` is noted, displacements are small |
+//!
+//! What changes the mechanics and is not read is refused by file, line and keyword: shells, beams,
+//! wedges, tied surfaces, equations, rigid bodies, couplings, preloaded bolts, springs, thermal
+//! expansion, plasticity, dynamics, contacts that come and go. What steers a numerical method, and
+//! steps of `*FREQUENCY`, are noted and left. Numbers keep the deck's units. Sources: Abaqus keywords
+//! reference, CalculiX CrunchiX user's manual.
 
 mod adjust;
 mod amplitude;

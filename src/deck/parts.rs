@@ -28,6 +28,16 @@ pub(super) struct Part {
     pub(super) thickness: f64,
 }
 
+impl Part {
+    /// What forces of the deck are divided by: results of plane strain are per unit depth.
+    pub(super) fn depth(&self) -> f64 {
+        match self.space {
+            Space::PlaneStrain => self.thickness,
+            _ => 1.0,
+        }
+    }
+}
+
 impl Parts {
     /// Finds the parts; elements that share a node are connected.
     pub(super) fn new(contents: &Contents, materials: &Materials) -> Result<Self, Error> {
@@ -75,22 +85,18 @@ impl Parts {
 
     /// Forces are per unit depth of plane strain: bodies that press each other share one depth.
     fn check_together(&self) -> Result<(), Error> {
-        let depth = |part: &Part| match part.space {
-            Space::PlaneStrain => part.thickness,
-            _ => 1.0,
-        };
         let Some(first) = self.parts.first() else {
             return Err(Error::Empty {
                 place: "elements".to_owned(),
             });
         };
-        let (space, thickness) = (first.space, depth(first));
+        let (space, thickness) = (first.space, first.depth());
         let solid = |part: &Part| part.space == Space::Solid;
         let ring = |part: &Part| part.space == Space::Axisymmetric;
         let same = |part: &&Part| {
             solid(part) == (space == Space::Solid)
                 && ring(part) == (space == Space::Axisymmetric)
-                && depth(part) == thickness
+                && part.depth() == thickness
         };
         match self.parts.iter().find(|part| !same(part)) {
             None => Ok(()),

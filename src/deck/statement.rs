@@ -9,118 +9,62 @@ use crate::error::Error;
 use crate::mesh_file::abaqus::{Card, Flat, KEYWORDS};
 
 /// Keywords that state the model.
-const MODEL: [&str; 10] = [
-    "MATERIAL",
-    "ELASTIC",
-    "DENSITY",
-    "EXPANSION",
-    "SOLIDSECTION",
-    "SURFACEINTERACTION",
-    "SURFACEBEHAVIOR",
-    "FRICTION",
-    "CONTACTPAIR",
-    "BOUNDARY",
-];
+const MODEL: &str = "MATERIAL ELASTIC DENSITY EXPANSION SOLIDSECTION SURFACEINTERACTION SURFACEBEHAVIOR \
+    FRICTION CONTACTPAIR BOUNDARY";
 
 /// Keywords that state a step.
-const STEP: [&str; 5] = ["BOUNDARY", "CLOAD", "DLOAD", "DSLOAD", "TEMPERATURE"];
+const STEP: &str = "BOUNDARY CLOAD DLOAD DSLOAD TEMPERATURE";
 
 /// Keywords that ask for output.
-const OUTPUT: [&str; 25] = [
-    "HEADING",
-    "NODEFILE",
-    "NODEPRINT",
-    "NODEOUTPUT",
-    "ELFILE",
-    "ELPRINT",
-    "ELEMENTOUTPUT",
-    "CONTACTFILE",
-    "CONTACTPRINT",
-    "CONTACTOUTPUT",
-    "ENERGYFILE",
-    "ENERGYPRINT",
-    "ENERGYOUTPUT",
-    "SECTIONPRINT",
-    "SECTIONFILE",
-    "OUTPUT",
-    "RESTART",
-    "PREPRINT",
-    "PRINT",
-    "FILEFORMAT",
-    "FILEOUTPUT",
-    "MONITOR",
-    "TIMEPOINTS",
-    "FILTER",
-    "NODALTHICKNESS",
-];
+const OUTPUT: &str = "HEADING NODEFILE NODEPRINT NODEOUTPUT ELFILE ELPRINT ELEMENTOUTPUT CONTACTFILE \
+    CONTACTPRINT CONTACTOUTPUT ENERGYFILE ENERGYPRINT ENERGYOUTPUT SECTIONPRINT SECTIONFILE \
+    OUTPUT RESTART PREPRINT PRINT FILEFORMAT FILEOUTPUT MONITOR TIMEPOINTS FILTER \
+    NODALTHICKNESS";
 
 /// Keywords that steer a numerical method, or state what elastic bodies at rest do not feel.
-const NUMERICS: [&str; 12] = [
-    "CONTROLS",
-    "CONTACTCONTROLS",
-    "CONTACTDAMPING",
-    "SECTIONCONTROLS",
-    "SOLUTIONTECHNIQUE",
-    "CONDUCTIVITY",
-    "SPECIFICHEAT",
-    "GAPCONDUCTANCE",
-    "DAMPING",
-    "PHYSICALCONSTANTS",
-    "INITIALCONDITIONS",
-    "ORIENTATION",
-];
+const NUMERICS: &str = "CONTROLS CONTACTCONTROLS CONTACTDAMPING SECTIONCONTROLS SOLUTIONTECHNIQUE CONDUCTIVITY \
+    SPECIFICHEAT GAPCONDUCTANCE DAMPING PHYSICALCONSTANTS INITIALCONDITIONS ORIENTATION";
 
-/// Keywords that are refused, and what they are.
-const REFUSED: [(&str, &str); 37] = [
-    ("DYNAMIC", "motion with inertia"),
-    ("HEATTRANSFER", "temperature as an unknown"),
+/// What is refused, and its keywords.
+const REFUSED: [(&str, &str); 26] = [
+    ("motion with inertia", "DYNAMIC"),
     (
-        "COUPLEDTEMPERATUREDISPLACEMENT",
         "temperature as an unknown",
+        "HEATTRANSFER COUPLEDTEMPERATUREDISPLACEMENT COUPLEDTEMPERATURE-DISPLACEMENT UNCOUPLEDTEMPERATURE-DISPLACEMENT",
     ),
+    ("buckling", "BUCKLE"),
+    ("creep", "VISCO CREEP"),
+    ("shells", "SHELLSECTION SHELLGENERALSECTION"),
+    ("beams", "BEAMSECTION BEAMGENERALSECTION"),
+    ("membranes", "MEMBRANESECTION"),
+    ("surfaces glued together", "TIE"),
+    ("equations between displacements", "EQUATION MPC"),
+    ("nodes that move as one rigid body", "RIGIDBODY"),
     (
-        "COUPLEDTEMPERATURE-DISPLACEMENT",
-        "temperature as an unknown",
+        "a surface coupled to a node",
+        "COUPLING KINEMATIC DISTRIBUTING DISTRIBUTINGCOUPLING",
     ),
+    ("preloaded bolts", "PRE-TENSIONSECTION"),
+    ("contacts or elements that come and go", "MODELCHANGE"),
+    ("gap elements", "GAP"),
+    ("a gap stated apart from the mesh", "CLEARANCE"),
     (
-        "UNCOUPLEDTEMPERATURE-DISPLACEMENT",
-        "temperature as an unknown",
-    ),
-    ("BUCKLE", "buckling"),
-    ("VISCO", "creep"),
-    ("SHELLSECTION", "shells"),
-    ("SHELLGENERALSECTION", "shells"),
-    ("BEAMSECTION", "beams"),
-    ("BEAMGENERALSECTION", "beams"),
-    ("MEMBRANESECTION", "membranes"),
-    ("TIE", "surfaces glued together"),
-    ("EQUATION", "equations between displacements"),
-    ("MPC", "equations between displacements"),
-    ("RIGIDBODY", "nodes that move as one rigid body"),
-    ("COUPLING", "a surface coupled to a node"),
-    ("KINEMATIC", "a surface coupled to a node"),
-    ("DISTRIBUTING", "a surface coupled to a node"),
-    ("DISTRIBUTINGCOUPLING", "a surface coupled to a node"),
-    ("PRE-TENSIONSECTION", "preloaded bolts"),
-    ("MODELCHANGE", "contacts or elements that come and go"),
-    ("GAP", "gap elements"),
-    ("CLEARANCE", "a gap stated apart from the mesh"),
-    (
-        "CONTACTINTERFERENCE",
         "an overlap stated apart from the mesh",
+        "CONTACTINTERFERENCE",
     ),
-    ("CONTACT", "contact of all with all; state *CONTACT PAIR"),
-    ("SPRING", "springs"),
-    ("TRANSFORM", "directions of a node's own"),
-    ("PLASTIC", "plasticity"),
-    ("HYPERELASTIC", "large strain"),
-    ("CREEP", "creep"),
-    ("USERMATERIAL", "a material of the user's"),
-    ("CYCLICSYMMETRYMODEL", "cyclic symmetry"),
-    ("CHANGEFRICTION", "friction that changes"),
-    ("CHANGESURFACEBEHAVIOR", "a law of contact that changes"),
-    ("CHANGECONTACTTYPE", "a law of contact that changes"),
-    ("SYSTEM", "coordinates of a system of their own"),
+    ("contact of all with all; state *CONTACT PAIR", "CONTACT"),
+    ("springs", "SPRING"),
+    ("directions of a node's own", "TRANSFORM"),
+    ("plasticity", "PLASTIC"),
+    ("large strain", "HYPERELASTIC"),
+    ("a material of the user's", "USERMATERIAL"),
+    ("cyclic symmetry", "CYCLICSYMMETRYMODEL"),
+    ("friction that changes", "CHANGEFRICTION"),
+    (
+        "a law of contact that changes",
+        "CHANGESURFACEBEHAVIOR CHANGECONTACTTYPE",
+    ),
+    ("coordinates of a system of their own", "SYSTEM"),
 ];
 
 /// A card and its scope.
@@ -176,7 +120,7 @@ impl<'a, 'c> Statement<'a, 'c> {
                 let length = length.ok_or_else(open)?;
                 statement.add_step(card, &flat.cards[at..at + length], notes)?;
                 at += length + 1;
-            } else if MODEL.contains(&card.name.as_str()) || card.name == "AMPLITUDE" {
+            } else if has(MODEL, &card.name) || card.name == "AMPLITUDE" {
                 statement.model.push((scope, card));
             } else {
                 leave(card, notes, "before the first step")?;
@@ -238,8 +182,8 @@ impl<'a, 'c> Statement<'a, 'c> {
             match inner.name.as_str() {
                 "STATIC" => procedure = Some(inner),
                 "AMPLITUDE" => self.model.push((scope, inner)),
-                name if STEP.contains(&name) => cards.push((scope, inner)),
-                name if MODEL.contains(&name) => {
+                name if has(STEP, name) => cards.push((scope, inner)),
+                name if has(MODEL, name) => {
                     return Err(inner.error("inside a step; expected it before the first one"));
                 }
                 _ => leave(inner, notes, "in a step")?,
@@ -264,15 +208,19 @@ fn leave(card: &Card<'_>, notes: &mut Notes, place: &str) -> Result<(), Error> {
     if name == "INITIALCONDITIONS" {
         card.one_of("TYPE", &["TEMPERATURE"])?;
     }
-    if OUTPUT.contains(&name) || NUMERICS.contains(&name) {
+    if has(OUTPUT, name) || has(NUMERICS, name) {
         notes.add(card, "is not needed here");
         return Ok(());
     }
-    if let Some((_, what)) = REFUSED.iter().find(|(refused, _)| *refused == name) {
+    if let Some((what, _)) = REFUSED.iter().find(|(_, words)| has(words, name)) {
         return Err(card.error(format!("is not read: {what}")));
     }
-    match STEP.contains(&name) || ["STATIC", "ENDSTEP", "FREQUENCY"].contains(&name) {
+    match has(STEP, name) || ["STATIC", "ENDSTEP", "FREQUENCY"].contains(&name) {
         true => Err(card.error(format!("{place}; expected it in a step"))),
         false => Err(card.error(format!("an unknown keyword {place}"))),
     }
+}
+
+fn has(words: &str, name: &str) -> bool {
+    words.split(' ').any(|word| word == name)
 }

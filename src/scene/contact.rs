@@ -1,6 +1,6 @@
 //! Contacts: a part of a body's surface, what it may touch, and friction.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::selection::{norm, vector};
 use super::{selection, spelling};
@@ -9,7 +9,7 @@ use crate::contact::{ContactPair, Obstacle, Opposite};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a contact")]
 pub struct SceneContact {
@@ -17,10 +17,13 @@ pub struct SceneContact {
     /// contacts, unless it is more than a hundred times as stiff as the other surface.
     pub group: String,
     /// Name of the body; may be left out while there is only one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// The rigid obstacle that the surface may touch; this or `against`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<SceneObstacle>,
     /// The other surface that it may touch; this or `obstacle`.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<SceneSurface>,
     /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
     #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
@@ -28,18 +31,19 @@ pub struct SceneContact {
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a surface")]
 pub struct SceneSurface {
     /// Name of the body; may be left out while there is only one.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// Group of surface facets.
     pub group: String,
 }
 
 /// A rigid body, which only `steps` can move; vectors have one entry per axis.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneObstacle {

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::{MeshSource, SceneLoad, SceneSupport, selection};
 use crate::body;
@@ -10,7 +10,7 @@ use crate::body::{Body, Material, Mesh, Model};
 use crate::error::Error;
 
 /// An elastic body.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a body")]
 pub struct SceneBody {
@@ -20,6 +20,7 @@ pub struct SceneBody {
     /// Where its mesh comes from.
     pub mesh: MeshSource,
     /// Plane strain, plane stress or axisymmetric, required in 2D; solid when left out in 3D.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<SceneModel>,
     /// Its materials; together they cover every cell once.
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
@@ -37,7 +38,7 @@ fn unnamed() -> String {
 }
 
 /// How strain and stress live in the body's dimension.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneModel {
@@ -57,11 +58,12 @@ pub enum SceneModel {
 }
 
 /// An isotropic linear elastic material.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with young and poisson")]
 pub struct SceneMaterial {
     /// Group of cells; all cells when left out, which only a single material may do.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub group: Option<String>,
     /// Young's modulus `E > 0`, in force per area.
     #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]

@@ -1,6 +1,6 @@
 //! Loads: pressure, traction, body force and point force.
 
-use serde::{Deserialize, Deserializer, de};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 use super::selection;
 use super::selection::vector;
@@ -8,9 +8,10 @@ use crate::body::{Load, Mesh};
 use crate::error::Error;
 
 /// A given force on a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
+#[serde(untagged)]
 pub enum SceneLoad {
     /// Force per area along the inward normal.
     Pressure {
@@ -31,6 +32,7 @@ pub enum SceneLoad {
         /// In global axes, one entry per axis, in force per volume.
         body_force: Vec<f64>,
         /// Group of cells; all cells when left out.
+        #[serde(skip_serializing_if = "Option::is_none")]
         group: Option<String>,
     },
     /// Force at a node.

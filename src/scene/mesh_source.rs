@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use serde::{Deserialize, Deserializer, de};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 use super::read;
 use crate::body::{CellKind, Mesh, box_mesh, graded, rectangle};
@@ -13,9 +13,10 @@ use crate::mesh_file::gmsh;
 pub(super) const MOST_NODES: usize = 20_000_000;
 
 /// Where a body's mesh comes from.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
+#[serde(untagged)]
 pub enum MeshSource {
     /// A Gmsh file.
     File {
@@ -33,16 +34,17 @@ pub enum MeshSource {
     /// A box of hexahedra or tetrahedra.
     Box {
         /// Its extent and cells.
-        #[cfg_attr(feature = "cli", schemars(rename = "box"))]
+        #[serde(rename = "box")]
         solid: BoxMesh,
     },
     /// A mesh that the calling code built.
+    #[serde(skip_serializing)]
     #[cfg_attr(feature = "cli", schemars(skip))]
     Given(Mesh),
 }
 
 /// A rectangle. Groups: `left`, `right`, `bottom`, `top`, and `body` for all cells.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with x, y and cells")]
 pub struct Rectangle {
@@ -62,7 +64,7 @@ pub struct Rectangle {
 
 /// A box. Groups: `left`, `right` (x), `front`, `back` (y), `bottom`, `top` (z), and `body`
 /// for all cells.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object with x, y, z and cells")]
 pub struct BoxMesh {
@@ -83,7 +85,7 @@ pub struct BoxMesh {
 }
 
 /// Cells of a rectangle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum PlaneCell {
@@ -101,7 +103,7 @@ pub enum PlaneCell {
 }
 
 /// Cells of a box.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum SolidCell {

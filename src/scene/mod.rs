@@ -30,7 +30,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::alternation::{Settings, Variant};
 use crate::body::Body;
@@ -57,7 +57,7 @@ pub(crate) use spelling::nearest;
 use mesh_source::MOST_NODES;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
@@ -81,6 +81,7 @@ pub struct Scene {
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub contacts: Vec<SceneContact>,
     /// A load history; left out, there is one state under the loads as they stand.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<SceneSteps>,
     /// When the solve may stop.
     #[serde(default)]
@@ -92,16 +93,18 @@ pub struct Scene {
 }
 
 /// Settings of the solve; left out, the defaults hold.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object of settings")]
 #[non_exhaustive]
 pub struct SceneSettings {
     /// Largest natural-map residual that counts as solved, from 1e-15 to 1e-2.
     #[cfg_attr(feature = "cli", schemars(range(min = 1e-15, max = 1e-2)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Sweeps after which the solve gives up, at least 1.
     #[cfg_attr(feature = "cli", schemars(range(min = 1)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub max_sweeps: Option<usize>,
     /// Which outer loop runs; for study, from code only.
     #[serde(skip)]
@@ -226,6 +229,20 @@ impl Scene {
             ),
         })?;
         Self::from_json(&text, file)
+    }
+
+    /// The scene in JSON, as [`Scene::from_json`] reads it.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotAccepted`] for a body whose mesh is in memory: put it into a file first, with
+    /// [`to_text`](crate::mesh_file::gmsh::to_text).
+    pub fn to_json(&self) -> Result<String, Error> {
+        serde_json::to_string_pretty(self).map_err(|reason| Error::NotAccepted {
+            place: "scene".to_owned(),
+            found: reason.to_string(),
+            accepted: "meshes from files or generators".to_owned(),
+        })
     }
 
     /// Reads or generates the meshes, looks up the groups and checks every value.

@@ -26,7 +26,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::spelling;
 use super::table::Table;
@@ -40,7 +40,7 @@ use crate::error::{Error, check_finite};
 ///
 /// Tables are linear between their rows and constant before the first and after the last.
 /// A load or support without a table acts in full at every instant.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
@@ -67,6 +67,7 @@ pub struct SceneSteps {
     /// part of the area of contact; or until there are 128 parts, with a note. The first step is
     /// not halved: nothing is stated of the way to it.
     #[cfg_attr(feature = "cli", schemars(range(min = 1e-12, max = 1)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub resolve: Option<f64>,
 }
 

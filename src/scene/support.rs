@@ -1,15 +1,16 @@
 //! Supports: nodes whose displacement is given, component by component.
 
-use serde::{Deserialize, Deserializer, de};
+use serde::{Deserialize, Deserializer, Serialize, de};
 
 use super::selection;
 use crate::body::{Mesh, Support};
 use crate::error::{Error, check_length};
 
 /// Nodes whose displacement is given; `null` leaves a component free.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
+#[serde(untagged)]
 pub enum SceneSupport {
     /// All nodes of a group.
     Group {

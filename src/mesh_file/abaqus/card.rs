@@ -20,8 +20,7 @@ pub(crate) struct Card<'a> {
     pub(crate) shown: String,
     /// In capitals; the value is empty where none is given.
     pub(crate) parameters: Vec<(String, String)>,
-    /// Data lines.
-    pub(crate) rows: Vec<Line<'a>>,
+    lines: Vec<Line<'a>>,
     /// The keyword's own line.
     pub(crate) line: Line<'a>,
 }
@@ -35,7 +34,7 @@ pub(crate) fn cards(source: &Source) -> Result<Vec<Card<'_>>, Error> {
             let Some(card) = cards.last_mut() else {
                 return Err(line.error("data before the first keyword; expected `*` and a keyword"));
             };
-            card.rows.push(line);
+            card.lines.push(line);
             continue;
         }
         let mut keyword = line.text.to_owned();
@@ -67,7 +66,7 @@ fn card<'a>(line: Line<'a>, keyword: &str) -> Card<'a> {
             .map(parameters)
             .filter(|(key, _)| !key.is_empty())
             .collect(),
-        rows: Vec::new(),
+        lines: Vec::new(),
         line,
     }
 }
@@ -95,13 +94,8 @@ pub(super) fn quote(text: &str) -> String {
 
 impl<'a> Card<'a> {
     /// What is wrong with the keyword.
-    pub(crate) fn error(&self, reason: impl AsRef<str>) -> Error {
-        self.at(&self.line, reason)
-    }
-
-    /// What is wrong in one of its data lines.
-    pub(crate) fn at(&self, row: &Line<'_>, reason: impl AsRef<str>) -> Error {
-        row.error(format!("{}: {}", self.shown, reason.as_ref()))
+    pub(crate) fn error(&self, reason: impl std::fmt::Display) -> Error {
+        self.head(0).error(reason)
     }
 
     /// Where the card stands, for notes.
@@ -148,71 +142,95 @@ impl<'a> Card<'a> {
         }
     }
 
-    /// Its only data line.
-    pub(crate) fn row(&self, what: &str) -> Result<Line<'a>, Error> {
-        match self.rows[..] {
-            [row] => Ok(row),
-            [] => Err(self.error(format!("expected a line with {what}"))),
-            [_, second, ..] => Err(self.at(&second, format!("one line too many; expected {what}"))),
+    /// Its data lines, whose words are known in a scope.
+    pub(crate) fn rows(&self, scope: usize) -> impl Iterator<Item = Row<'_, 'a>> {
+        let row = move |&line: &Line<'a>| Row {
+            scope,
+            card: self,
+            line,
+        };
+        self.lines.iter().map(row)
+    }
+
+    /// Its own line as one whose words are known in a scope.
+    pub(crate) fn head(&self, scope: usize) -> Row<'_, 'a> {
+        Row {
+            scope,
+            card: self,
+            line: self.line,
         }
     }
 
-    /// Field number `at` of a data line as a number; `default` where it is left out.
+    /// Its only data line.
+    pub(crate) fn row(&self, what: &str) -> Result<Row<'_, 'a>, Error> {
+        let mut rows = self.rows(0);
+        match (rows.next(), rows.next()) {
+            (Some(row), None) => Ok(row),
+            (None, _) => Err(self.error(format!("expected a line with {what}"))),
+            (_, Some(second)) => Err(second.error(format!("one line too many; expected {what}"))),
+        }
+    }
+}
+
+/// A data line of a card.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Row<'c, 'a> {
+    /// The scope that its words are known in.
+    pub(crate) scope: usize,
+    /// Its card.
+    pub(crate) card: &'c Card<'a>,
+    line: Line<'a>,
+}
+
+impl<'a> Row<'_, 'a> {
+    /// What is wrong in it.
+    pub(crate) fn error(&self, reason: impl std::fmt::Display) -> Error {
+        self.line.error(format!("{}: {reason}", self.card.shown))
+    }
+
+    /// The words between commas; a comma at the end ends the last one.
+    pub(crate) fn words(&self) -> impl Iterator<Item = &'a str> + use<'a> {
+        let text = self.line.text;
+        let text = text.strip_suffix(',').unwrap_or(text);
+        text.split(',').map(str::trim)
+    }
+
+    /// Word number `at`, empty where there is none.
+    pub(crate) fn word(&self, at: usize) -> &'a str {
+        self.words().nth(at).unwrap_or_default()
+    }
+
+    /// Word number `at` as a number; `default` where it is left out.
     pub(crate) fn number(
         &self,
-        row: &Line<'_>,
         at: usize,
         what: &str,
-        default: Option<f64>,
+        default: impl Into<Option<f64>>,
     ) -> Result<f64, Error> {
-        let text = fields(row).nth(at).unwrap_or_default();
-        if let (true, Some(default)) = (text.is_empty(), default) {
-            return Ok(default);
-        }
-        self.number_of(row, text, what)
-    }
-
-    /// A word of a data line as a number; Fortran's `1.d5` is one.
-    pub(crate) fn number_of(&self, row: &Line<'_>, text: &str, what: &str) -> Result<f64, Error> {
-        let number = text.replace(['d', 'D'], "e").parse::<f64>();
-        match number {
-            Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(self.at(
-                row,
-                format!(
-                    "`{}` is no finite number; expected {what}{}",
-                    quote(text),
-                    forgotten(text)
-                ),
-            )),
+        match (self.word(at), default.into()) {
+            ("", Some(default)) => Ok(default),
+            (word, _) => self.number_of(word, what),
         }
     }
 
-    /// A word of a data line as the number of a node or an element.
-    pub(crate) fn label(&self, row: &Line<'_>, text: &str, what: &str) -> Result<u64, Error> {
-        let refused = || {
-            let reason = format!(
-                "`{}` is no {what}; expected a whole number above 0{}",
-                quote(text),
-                forgotten(text)
-            );
-            self.at(row, reason)
+    /// A word as a number; Fortran's `1.d5` is one.
+    pub(crate) fn number_of(&self, word: &str, what: &str) -> Result<f64, Error> {
+        let number = word.replace(['d', 'D'], "e").parse::<f64>();
+        let number = number.ok().filter(|number| number.is_finite());
+        number.ok_or_else(|| self.no(word, &format!("finite number; expected {what}")))
+    }
+
+    /// A word as the number of a node or an element.
+    pub(crate) fn label(&self, word: &str, what: &str) -> Result<u64, Error> {
+        let number = word.parse().ok().filter(|number| *number > 0);
+        number.ok_or_else(|| self.no(word, &format!("{what}; expected a whole number above 0")))
+    }
+
+    fn no(&self, word: &str, what: &str) -> Error {
+        let hint = match word.contains(char::is_whitespace) {
+            true => " (a comma is missing between two words)",
+            false => "",
         };
-        let number = text.parse::<u64>().map_err(|_| refused())?;
-        (number > 0).then_some(number).ok_or_else(refused)
+        self.error(format!("`{}` is no {what}{hint}", quote(word)))
     }
-}
-
-/// A hint where two words stand in one field.
-fn forgotten(text: &str) -> &'static str {
-    match text.contains(char::is_whitespace) {
-        true => " (a comma is missing between two words)",
-        false => "",
-    }
-}
-
-/// The fields of a data line; a comma at the end ends the last one.
-pub(crate) fn fields<'a>(row: &Line<'a>) -> impl Iterator<Item = &'a str> + use<'a> {
-    let text = row.text.strip_suffix(',').unwrap_or(row.text);
-    text.split(',').map(str::trim)
 }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
 
-use super::card::{Card, bare, fields, quote};
+use super::card::{Card, Row, bare, quote};
 use super::directory::Directory;
 use super::element::ElementKind;
 use super::instance::Flat;
@@ -81,21 +81,14 @@ impl Contents {
     fn read_nodes(&mut self, scope: usize, card: &Card<'_>) -> Result<(), Error> {
         card.only(&["NSET", "SYSTEM"])?;
         card.one_of("SYSTEM", &["R"])?;
-        for row in &card.rows {
-            let mut words = fields(row);
-            let label = card.label(row, words.next().unwrap_or_default(), "number of a node")?;
+        for row in card.rows(scope) {
+            let label = row.label(row.word(0), "number of a node")?;
             let mut position = [0.0; 3];
-            for coordinate in &mut position {
-                match words.next() {
-                    None | Some("") => {}
-                    Some(word) => *coordinate = card.number_of(row, word, "a coordinate")?,
-                }
+            for (axis, coordinate) in position.iter_mut().enumerate() {
+                *coordinate = row.number(1 + axis, "a coordinate", 0.0)?;
             }
-            if words.next().is_some() {
-                return Err(card.at(
-                    row,
-                    "one word too many; expected a number and 3 coordinates",
-                ));
+            if row.words().count() > 4 {
+                return Err(row.error("one word too many; expected a number and 3 coordinates"));
             }
             let position = self.nodes.scope(scope).place(position);
             match self.nodes.number(scope, label, self.positions.len()) {
@@ -103,7 +96,7 @@ impl Contents {
                 Some(before) if self.positions[before] == position => {
                     self.nodes.number(scope, label, before);
                 }
-                Some(_) => return Err(card.at(row, format!("node {label} is listed twice"))),
+                Some(_) => return Err(row.error(format!("node {label} is listed twice"))),
             }
         }
         Ok(())
@@ -115,24 +108,22 @@ impl Contents {
         let kind = ElementKind::new(card.need("TYPE")?).map_err(|reason| card.error(reason))?;
         let (start, count) = (self.elements.len(), 1 + kind.cell.node_count());
         let mut numbers: Vec<u64> = Vec::with_capacity(count);
-        for (at, row) in card.rows.iter().enumerate() {
-            for word in fields(row) {
-                numbers.push(card.label(row, word, "number of an element or a node")?);
+        let mut rows = card.rows(scope).peekable();
+        while let Some(row) = rows.next() {
+            for word in row.words() {
+                numbers.push(row.label(word, "number of an element or a node")?);
             }
-            let last = at + 1 == card.rows.len();
+            let last = rows.peek().is_none();
             if numbers.len() > count || (last && numbers.len() < count) {
                 let (label, found) = (numbers[0], numbers.len() - 1);
-                return Err(card.at(
-                    row,
-                    format!(
-                        "element {label} has {found} nodes; expected {} of {}",
-                        count - 1,
-                        card.need("TYPE")?
-                    ),
-                ));
+                return Err(row.error(format!(
+                    "element {label} has {found} nodes; expected {} of {}",
+                    count - 1,
+                    card.need("TYPE")?
+                )));
             }
             if numbers.len() == count {
-                let unknown = |reason: String| card.at(row, reason);
+                let unknown = |reason: String| row.error(reason);
                 let element = self.element(scope, kind, &numbers).map_err(unknown)?;
                 self.elements.push(element);
                 numbers.clear();
@@ -187,10 +178,9 @@ impl Contents {
                 let Some(set) = card.get("NSET") else {
                     return Ok(());
                 };
-                let mut nodes = Vec::with_capacity(card.rows.len());
-                for row in &card.rows {
-                    let word = fields(row).next().unwrap_or_default();
-                    nodes.extend(self.nodes.members(scope, (card, row), word)?);
+                let mut nodes = Vec::new();
+                for row in card.rows(scope) {
+                    nodes.extend(self.nodes.members(row, row.word(0))?);
                 }
                 self.nodes.add(scope, set, nodes);
                 Ok(())
@@ -208,7 +198,7 @@ impl Contents {
                 let Some(set) = card.get("ELSET") else {
                     return Ok(());
                 };
-                let cells = self.cells.members(scope, (card, &card.line), set)?;
+                let cells = self.cells.members(card.head(scope), set)?;
                 let nodes = cells
                     .iter()
                     .flat_map(|&cell| self.elements[cell].nodes.clone());
@@ -236,11 +226,9 @@ impl Contents {
             return self.around_nodes(scope, card, outer);
         }
         let mut sides = BTreeSet::new();
-        for row in &card.rows {
-            let mut words = fields(row);
-            let word = words.next().unwrap_or_default();
-            let cells = self.cells.members(scope, (card, row), word)?;
-            let face = words.next().map(bare).unwrap_or_default();
+        for row in card.rows(scope) {
+            let cells = self.cells.members(row, row.word(0))?;
+            let face = bare(row.word(1));
             if face.is_empty() {
                 let all = cells.iter().flat_map(|&cell| {
                     (1..=self.elements[cell].kind.faces()).map(move |face| (cell, face))
@@ -251,11 +239,29 @@ impl Contents {
             for cell in cells {
                 sides.insert(
                     self.side(cell, &face, 'S', outer)
-                        .map_err(|e| card.at(row, e))?,
+                        .map_err(|e| row.error(e))?,
                 );
             }
         }
         Ok(sides)
+    }
+
+    /// The surface of a name, its full name first.
+    pub(crate) fn surface(
+        &self,
+        row: Row<'_, '_>,
+        name: &str,
+    ) -> Result<(&String, &BTreeSet<Side>), Error> {
+        let name = bare(name);
+        let full = self.cells.full(row.scope, &name);
+        let found = self.surfaces.get_key_value(&full);
+        match found.or_else(|| self.surfaces.get_key_value(&name)) {
+            Some((_, sides)) if sides.is_empty() => {
+                Err(row.error(format!("surface `{name}` has no outer face")))
+            }
+            Some(surface) => Ok(surface),
+            None => Err(row.error(format!("surface `{}` is not known", quote(&name)))),
+        }
     }
 
     /// The face of an element behind a label such as `S2`, which must be an outer one.
@@ -294,9 +300,8 @@ impl Contents {
         outer: &BTreeSet<Side>,
     ) -> Result<BTreeSet<Side>, Error> {
         let mut nodes = BTreeSet::new();
-        for row in &card.rows {
-            let word = fields(row).next().unwrap_or_default();
-            nodes.extend(self.nodes.members(scope, (card, row), word)?);
+        for row in card.rows(scope) {
+            nodes.extend(self.nodes.members(row, row.word(0))?);
         }
         let inside = |side: &&Side| self.corners(**side).iter().all(|node| nodes.contains(node));
         Ok(outer.iter().filter(inside).copied().collect())

@@ -7,9 +7,8 @@
 
 use std::collections::{BTreeSet, HashMap};
 
-use super::card::{Card, bare, fields, quote};
+use super::card::{Card, Row, bare, quote};
 use super::instance::Scope;
-use super::lines::Line;
 use crate::error::Error;
 
 /// Nodes or elements by number and by set.
@@ -67,33 +66,29 @@ impl Directory {
     }
 
     /// What a word of a data line refers to, in rising order.
-    pub(crate) fn members(
-        &self,
-        scope: usize,
-        (card, row): (&Card<'_>, &Line<'_>),
-        word: &str,
-    ) -> Result<Vec<usize>, Error> {
+    pub(crate) fn members(&self, row: Row<'_, '_>, word: &str) -> Result<Vec<usize>, Error> {
         let name = bare(word);
         let (inside, rest) = match name.rsplit_once('.') {
             Some((instance, rest)) => match self.scopes.iter().position(|s| s.name == instance) {
                 Some(inside) => (inside, rest),
-                None => (scope, name.as_str()),
+                None => (row.scope, name.as_str()),
             },
-            None => (scope, name.as_str()),
+            None => (row.scope, name.as_str()),
         };
         let is_number = !rest.is_empty() && rest.bytes().all(|byte| byte.is_ascii_digit());
         if is_number {
-            let label = card.label(row, rest, self.what)?;
-            let unknown = || card.at(row, format!("{} {label} is not in the deck", self.what));
+            let label = row.label(rest, self.what)?;
+            let unknown = || row.error(format!("{} {label} is not in the deck", self.what));
             return Ok(vec![self.index(inside, label).ok_or_else(unknown)?]);
         }
         let set = self.sets.get(&self.scopes[inside].full(rest));
         match set.or_else(|| self.sets.get(&name)) {
             Some(set) => Ok(set.iter().copied().collect()),
-            None => Err(card.at(
-                row,
-                format!("`{}` is no {} and no set of them", quote(word), self.what),
-            )),
+            None => Err(row.error(format!(
+                "`{}` is no {} and no set of them",
+                quote(word),
+                self.what
+            ))),
         }
     }
 
@@ -110,15 +105,15 @@ impl Directory {
             }
         };
         self.add(scope, &name, []);
-        for row in &card.rows {
+        for row in card.rows(inside) {
             if card.get("GENERATE").is_some() {
-                let members = self.generated(inside, card, row)?;
+                let members = self.generated(row)?;
                 self.add(scope, &name, members);
                 continue;
             }
-            for word in fields(row).filter(|word| !word.is_empty()) {
+            for word in row.words().filter(|word| !word.is_empty()) {
                 if bare(word) != name {
-                    let members = self.members(inside, (card, row), word)?;
+                    let members = self.members(row, word)?;
                     self.add(scope, &name, members);
                 }
             }
@@ -127,37 +122,33 @@ impl Directory {
     }
 
     /// The numbers from a first to a last one, those that there are.
-    fn generated(
-        &self,
-        scope: usize,
-        card: &Card<'_>,
-        row: &Line<'_>,
-    ) -> Result<Vec<usize>, Error> {
-        let words: Vec<&str> = fields(row).collect();
-        let number = |at: usize| match words.get(at).copied().unwrap_or_default() {
+    fn generated(&self, row: Row<'_, '_>) -> Result<Vec<usize>, Error> {
+        let number = |at: usize| match row.word(at) {
             "" if at == 2 => Ok(1),
-            word => card.label(row, word, "number to generate from"),
+            word => row.label(word, "number to generate from"),
         };
         let (first, last, step) = (number(0)?, number(1)?, number(2)?);
-        if last < first || words.len() > 3 {
+        if last < first || row.words().count() > 3 {
             let reason = "expected a first number, one not below it, and a step";
-            return Err(card.at(row, reason));
+            return Err(row.error(reason));
         }
         let inside: Vec<usize> = match (last - first) / step < self.labels.len() as u64 {
             true => (0..=(last - first) / step)
-                .filter_map(|at| self.index(scope, first + at * step))
+                .filter_map(|at| self.index(row.scope, first + at * step))
                 .collect(),
             // Few numbers in a wide range: the range is asked about each of them.
             false => (self.labels.iter())
                 .filter(|((of, label), _)| {
-                    *of == scope && (first..=last).contains(label) && (label - first) % step == 0
+                    *of == row.scope
+                        && (first..=last).contains(label)
+                        && (label - first) % step == 0
                 })
                 .map(|(_, index)| *index)
                 .collect(),
         };
         match inside.is_empty() {
             false => Ok(inside),
-            true => Err(card.at(row, format!("no {} from {first} to {last}", self.what))),
+            true => Err(row.error(format!("no {} from {first} to {last}", self.what))),
         }
     }
 }

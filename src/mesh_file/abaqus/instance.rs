@@ -6,7 +6,7 @@
 
 use std::collections::HashMap;
 
-use super::card::{Card, bare};
+use super::card::{Card, Row, bare};
 use crate::error::Error;
 
 /// Where names and numbers are known: the model itself, or an instance.
@@ -126,20 +126,22 @@ struct Motion {
 
 impl Motion {
     fn read(card: &Card<'_>) -> Result<Self, Error> {
-        let numbers = |row: &_, count: usize| -> Result<Vec<f64>, Error> {
-            let number = |at| card.number(row, at, "a coordinate", Some(0.0));
-            (0..count).map(number).collect()
+        let numbers = |row: Row<'_, '_>, count: usize| -> Result<Vec<f64>, Error> {
+            (0..count)
+                .map(|at| row.number(at, "a coordinate", 0.0))
+                .collect()
         };
+        let mut rows = card.rows(0);
         let mut motion = Self::default();
-        if let Some(row) = card.rows.first() {
+        if let Some(row) = rows.next() {
             motion.translation.copy_from_slice(&numbers(row, 3)?);
         }
-        if let Some(row) = card.rows.get(1) {
+        if let Some(row) = rows.next() {
             let stated = numbers(row, 7)?;
             let axis = [0, 1, 2].map(|at| stated[3 + at] - stated[at]);
             let length = axis.iter().fold(0.0_f64, |sum, x| sum.hypot(*x));
             if length == 0.0 {
-                return Err(card.at(row, "the two points of the axis of rotation coincide"));
+                return Err(row.error("the two points of the axis of rotation coincide"));
             }
             let axis = axis.map(|x| x / length);
             motion.rotation = Some((
@@ -148,9 +150,9 @@ impl Motion {
                 stated[6].to_radians(),
             ));
         }
-        match card.rows.get(2) {
+        match rows.next() {
             None => Ok(motion),
-            Some(row) => Err(card.at(row, "one line too many; expected translation and rotation")),
+            Some(row) => Err(row.error("one line too many; expected translation and rotation")),
         }
     }
 

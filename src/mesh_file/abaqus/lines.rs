@@ -5,6 +5,9 @@ use crate::error::Error;
 /// Most files of one deck: two includes of the same file in each of n files are 2ⁿ files.
 const MOST_FILES: usize = 1000;
 
+/// Most files that include each other: each takes room on the stack.
+const MOST_DEEP: usize = 50;
+
 /// Gives the bytes of an included file, whose name stands as in the deck.
 pub(crate) type Reader<'a> = dyn Fn(&str) -> Result<Vec<u8>, Error> + 'a;
 
@@ -122,8 +125,10 @@ impl Source {
                 open.join(" → ")
             )));
         }
-        if self.files.len() >= MOST_FILES {
-            return Err(line.error(format!("*INCLUDE: more than {MOST_FILES} files")));
+        if self.files.len() >= MOST_FILES || open.len() >= MOST_DEEP {
+            return Err(line.error(format!(
+                "*INCLUDE: more than {MOST_FILES} files, or {MOST_DEEP} inside each other"
+            )));
         }
         Ok(included.to_owned())
     }

@@ -14,8 +14,8 @@ mod element;
 mod instance;
 mod lines;
 
-pub(crate) use card::{Card, bare, cards, fields};
+pub(crate) use card::{Card, Row, bare, cards};
 pub(crate) use contents::{Contents, KEYWORDS, Side};
 pub(crate) use element::Space;
 pub(crate) use instance::{Flat, flatten};
-pub(crate) use lines::{Line, Source};
+pub(crate) use lines::Source;

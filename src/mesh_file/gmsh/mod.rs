@@ -1,4 +1,4 @@
-//! Reader of Gmsh meshes: MSH 2.2 and 4.1, ASCII.
+//! Gmsh meshes: a reader of MSH 2.2 and 4.1, ASCII, and a writer of 2.2.
 //!
 //! ```text
 //! $MeshFormat → $PhysicalNames → $Entities (4.1) → $Nodes → $Elements
@@ -15,11 +15,13 @@ mod contents;
 mod lines;
 mod version2;
 mod version4;
+mod write;
 
 use crate::body::Mesh;
 use crate::error::Error;
 use contents::Contents;
 use lines::Lines;
+pub use write::to_text;
 
 /// The two versions of the format that are read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,50 @@
+//! `dpana import`: a deck of another program as a scene of its own, with its meshes beside it.
+
+use std::error::Error;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Args;
+use dpana::deck::Deck;
+use dpana::mesh_file::gmsh;
+use dpana::report::replace_file;
+use dpana::scene::MeshSource;
+
+use super::outputs::check_output;
+use super::scene_file::tell;
+
+#[derive(Args)]
+pub(crate) struct Import {
+    /// Abaqus or CalculiX deck.
+    deck: PathBuf,
+    /// Write the scene to this file, in JSON, and the mesh of its bodies beside it (`FILE_1.msh`).
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+}
+
+pub(crate) fn import(arguments: &Import) -> Result<ExitCode, Box<dyn Error>> {
+    check_output("--out", &arguments.out, &arguments.deck)?;
+    let mut scene = tell(Deck::from_file(&arguments.deck)?).scene;
+    // Meshes and groups are looked at before anything is written.
+    scene.mechanics()?;
+    let folder = arguments.out.parent().unwrap_or(Path::new(""));
+    let stem = arguments.out.file_stem().unwrap_or_default();
+    let stem = stem.to_string_lossy();
+    for (number, body) in (1..).zip(&mut scene.bodies) {
+        if let MeshSource::Given(mesh) = &body.mesh {
+            let file = PathBuf::from(format!("{stem}_{number}.msh"));
+            replace_file(&folder.join(&file), &gmsh::to_text(mesh))?;
+            writeln!(
+                io::stdout(),
+                "body `{}`: {}",
+                body.name,
+                folder.join(&file).display()
+            )?;
+            body.mesh = MeshSource::File { file, scale: 1.0 };
+        }
+    }
+    replace_file(&arguments.out, &scene.to_json()?)?;
+    writeln!(io::stdout(), "scene: {}", arguments.out.display())?;
+    Ok(ExitCode::SUCCESS)
+}
