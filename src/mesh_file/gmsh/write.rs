@@ -125,7 +125,7 @@ mod tests {
                 .insert("a \u{e4}".into(), Group::Cells(vec![last]));
             mesh.groups
                 .insert("points".into(), Group::Points(vec![0, 2]));
-            let read = parse(&to_text(&mesh), "part.msh").unwrap();
+            let read = parse(to_text(&mesh), "part.msh").unwrap();
             assert_eq!(read.nodes, mesh.nodes, "{kind:?}");
             assert_eq!(read.groups.len(), mesh.groups.len());
             let cells = |mesh: &Mesh| -> Vec<_> {
