@@ -75,6 +75,7 @@ fn words(status: Status) -> &'static str {
         Status::Certified => "certified",
         Status::NotConverged => "not converged",
         Status::NoEquilibrium => "no equilibrium",
+        Status::CouplingFault => "coupling fault",
     }
 }
 

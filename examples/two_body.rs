@@ -19,7 +19,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("{}", report.summary().trim_end());
     Ok(match status {
         Status::Certified => ExitCode::SUCCESS,
-        Status::NotConverged | Status::NoEquilibrium => ExitCode::FAILURE,
+        Status::NotConverged | Status::NoEquilibrium | Status::CouplingFault => ExitCode::FAILURE,
     })
 }
 

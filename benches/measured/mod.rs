@@ -7,7 +7,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use dpana::condensation::Condensed;
-use dpana::kkt::{self, BodyState};
+use dpana::kkt::{self, BodyState, SceneGeometry, Surroundings};
 use dpana::{Scene, Status};
 
 /// Prints a Markdown table with a row per number of cells along a side.
@@ -38,7 +38,7 @@ pub(crate) fn table(
     Ok(())
 }
 
-const COLUMNS: [&str; 13] = [
+const COLUMNS: [&str; 15] = [
     "per side",
     "unknowns",
     "contacts",
@@ -51,6 +51,8 @@ const COLUMNS: [&str; 13] = [
     "cone iterations",
     "Newton steps",
     "residual",
+    "scene judge s",
+    "scene judge / solve",
     "peak MiB",
 ];
 
@@ -75,6 +77,18 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
     }
     let work = condensed.work();
     let rest = work.condensation_seconds + start.elapsed().as_secs_f64();
+    let judging = Instant::now();
+    let geometry = SceneGeometry::new(bodies, &mechanics.contacts, condensed.surface())?;
+    let fits = geometry.fit(
+        &BodyState::of_bodies(bodies, &condensed, &outcome.reaction, &displacements),
+        &Surroundings {
+            obstacles: &[],
+            openings: &[],
+            residual: outcome.verdict.certificate.residual(),
+        },
+    )?;
+    let judging = judging.elapsed().as_secs_f64();
+    balanced &= fits.iter().all(|fit| fit.fault().is_none());
     if outcome.status != Status::Certified || !balanced {
         return Err(format!("{size} per side is not certified").into());
     }
@@ -92,6 +106,11 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
         outcome.work.cone_iterations.to_string(),
         outcome.work.newton_steps.to_string(),
         format!("{:.1e}", outcome.verdict.certificate.natural_map),
+        format!("{judging:.3}"),
+        format!(
+            "{:.3}",
+            judging / (work.assembly_seconds + ordering + factorisation + rest)
+        ),
         peak_memory().map_or("–".to_owned(), |peak| format!("{peak:.0}")),
     ];
     Ok(format!("| {} |", cells.join(" | ")))

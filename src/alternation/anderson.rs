@@ -18,15 +18,16 @@ const WINDOW: usize = 10;
 const RANK: f64 = 1e-8;
 
 /// The memory of the acceleration.
-#[derive(Default)]
-pub(super) struct Anderson {
+#[derive(Debug, Default)]
+pub struct Anderson {
     last: Option<(Col<f64>, Col<f64>)>,
     steps: VecDeque<(Col<f64>, Col<f64>)>,
 }
 
 impl Anderson {
     /// The next iterate, from an iterate `x` and its image `F(x)`.
-    pub(super) fn next(&mut self, x: &[f64], image: &[f64]) -> Vec<f64> {
+    #[must_use]
+    pub fn next(&mut self, x: &[f64], image: &[f64]) -> Vec<f64> {
         let x = Col::from_fn(x.len(), |i| x[i]);
         let residual = Col::from_fn(image.len(), |i| image[i] - x[i]);
         if let Some((last_x, last_residual)) = self.last.take() {

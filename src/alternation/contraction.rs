@@ -216,3 +216,26 @@ fn unit(size: usize, axis: usize) -> Vec<f64> {
 fn length(vector: &[f64]) -> f64 {
     vector.iter().fold(0.0_f64, |length, x| length.hypot(*x))
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::mat;
+
+    use super::*;
+    use crate::alternation::{Settings, solve};
+    use crate::problem::Operator;
+
+    #[test]
+    fn a_contact_that_sticks_gives_back_the_square_of_its_coupling() {
+        // Stuck: δt_T = −(G_TN/G_TT) δt_N, δt_N' = −(G_NT/G_NN) δt_T: (½/1) (½/2) of G = [[1, ½], [½, 2]].
+        let operator = Operator::from_compliance(mat![[1.0, 0.5], [0.5, 2.0]]).unwrap();
+        let free = vec![1.0, 0.5];
+        let problem = ContactProblem::new(&[1], vec![0.5], vec![0.0], free, operator).unwrap();
+        let outcome = solve(&problem, &Settings::default()).unwrap();
+        let found = contraction(&problem, &outcome).unwrap();
+        assert!((found.factor - 0.125).abs() < 1e-12, "{found:?}");
+        // What sticks does not see how much friction there is.
+        assert_eq!(found.critical, None);
+    }
+}

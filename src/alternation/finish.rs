@@ -1,286 +1,464 @@
-//! The finish: semismooth Newton on the laws of contact, in stiffness form.
+//! One Newton step on the laws of contact, whole, without a line search.
 //!
-//! With `t = S (u − û)` the displacement is the unknown, and each contact's state
-//! takes its equations from the point `p = t − ρ (u − g)` of the natural map
-//! (Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353–375):
+//! Each contact takes its equations from the trial point `p = t − ρ (u − g)` of the natural map
+//! (Alart, Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353–375); the disc is that of the trial point too,
+//! so that a contact which is about to close has one:
 //!
 //! ```text
-//!        open     p_N ≥ 0                t = 0                                       unknown: u
-//!        stick    ‖p_T‖ ≤ −μ t_N         u_N = g₀,  u_T = 0                          unknown: none
-//! (D4)   slip     ‖p_T‖ > −μ t_N         u_N = g₀,                                   unknown: u_T
-//!                     (1 − M) t_T + μ d t_N + ρ M u_T = 0
-//!                     d = p_T/‖p_T‖,   M = γ (1 − d dᵀ),   γ = −μ t_N/‖p_T‖
+//!        open     p_N ≥ 0                t = 0
+//! (D4)   stick    ‖p_T‖ ≤ −μ p_N         u_N = g₀,  u_T = 0
+//!        slip     ‖p_T‖ > −μ p_N         u_N = g₀,  (1 − M) t_T + μ d t_N + ρ M u_T = 0
+//!                                        d = p_T/‖p_T‖,   M = γ (1 − d dᵀ),   γ = −μ p_N/‖p_T‖
+//!
+//! (D5)   u = û + G t + σ C (t − t_k) + R α,      Rᵀ t + e = σ (α − α_k)
 //! ```
 //!
-//! Reactions are kept and corrected by `S δu` with small `δu`, so that the digits of
-//! the result are those of `u = û + G t`, whatever the condition of S. Between bodies that
-//! float S is that of (D5), and every step restores their equilibrium.
+//! Unknown are the reactions of contacts that are not open, and the rigid motions of bodies that float. With the
+//! softness σ = 0 this is a step of the finish; else springs C = 1/ρ stand at every contact and hold every rigid
+//! motion (R orthonormal in ρ), anchored where the proximal loop is. All is scaled to `t/√ρ` and `√ρ u`:
+//! no unit and no size of a contact is seen.
 
 use std::ops::Range;
 
-use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::Solve;
-use faer::{Accum, Col, ColMut, ColRef, Mat, Par};
-use nalgebra::Matrix3;
+use faer::{Col, Mat};
 
-use super::iterate::{Iterate, Step};
-use super::stiffness::Stiffness;
+use super::condition::Factored;
+use super::iterate::Iterate;
+use super::laws::{Law, Local, roots};
 use crate::problem::ContactProblem;
+use crate::problem::velocity_basis::VelocityBasis;
 
-/// A slip is followed this far to its end: the contact is then on the side of stick.
-const BEYOND: f64 = 1.0 + 1e-6;
+/// A reaction, with the displacement that goes with it.
+#[derive(Clone, Debug)]
+pub(super) struct Point {
+    pub(super) reaction: Vec<f64>,
+    pub(super) displacement: Vec<f64>,
+    /// Rigid motion since the anchor, along the velocities of [`Finish`].
+    pub(super) drift: Vec<f64>,
+}
 
-/// One contact's state and what (D4) needs of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
-    Open,
-    Stick,
-    Slip {
-        direction: [f64; 2],
-        /// γ: the bound over ‖p_T‖, below one.
-        ratio: f64,
-    },
+/// Springs of (D5).
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Springs<'a> {
+    /// σ.
+    pub(super) softness: f64,
+    /// t_k, in newton per unknown.
+    pub(super) anchor: &'a [f64],
 }
 
 /// Newton steps on one problem.
 pub(super) struct Finish<'a> {
     problem: &'a ContactProblem,
-    stiffness: Stiffness<'a>,
+    /// √ρ per unknown.
+    roots: Vec<f64>,
+    rigid: Option<Rigid>,
+    last: Option<Factored>,
+}
+
+/// What bodies that float do as a whole.
+struct Rigid {
+    basis: VelocityBasis,
+    /// Displacement of every unknown along each velocity.
+    velocities: Mat<f64>,
+    /// e along the velocities.
+    load: Vec<f64>,
 }
 
 impl<'a> Finish<'a> {
-    /// `None` where the compliance has no inverse.
+    /// `None` where the rigid motions have no basis.
     pub(super) fn new(problem: &'a ContactProblem) -> Option<Self> {
+        let roots = roots(problem);
+        let rigid = match problem.floating() {
+            None => None,
+            Some(floating) => {
+                let (modes, rows) = (floating.modes(), problem.unknowns());
+                let scaled = Mat::from_fn(rows, modes.ncols(), |i, j| roots[i] * modes[(i, j)]);
+                let basis = VelocityBasis::new(scaled.as_ref())?;
+                let q = basis.velocities();
+                Some(Rigid {
+                    velocities: Mat::from_fn(rows, q.ncols(), |i, j| q[(i, j)] / roots[i]),
+                    load: basis.load(floating.load()),
+                    basis,
+                })
+            }
+        };
         Some(Self {
             problem,
-            stiffness: Stiffness::new(problem)?,
+            roots,
+            rigid,
+            last: None,
         })
     }
 
-    /// One step from an iterate; `None` if the matrix of (D4) is singular. What each contact does is
-    /// read off the iterate's reaction and `seen`, a displacement: its own, or that of a neighbour.
-    pub(super) fn step(&self, state: &Iterate, seen: &[f64]) -> Option<Step> {
-        let (reaction, displacement) = (&state.reaction, &state.verdict.displacement);
-        let laws: Vec<Law> = (0..self.problem.contacts())
-            .map(|contact| self.law(contact, self.state(contact, reaction, seen)))
-            .collect();
-        let mut change = self.closing(&laws, displacement);
-        let balanced = self.stiffness.balanced(reaction);
-        let held = self.reaction_after(&balanced, &change);
-        let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.unknowns.clone()).collect();
-        let matrix = self.matrix(&laws, &unknowns);
-        let right = right_side(&laws, &held, displacement);
-        let solution = matrix.partial_piv_lu().solve(&right);
-        for (&unknown, &value) in unknowns.iter().zip(solution.iter()) {
-            change[unknown] = value;
+    /// An iterate, with springs anchored there.
+    pub(super) fn point(&self, state: &Iterate) -> Point {
+        Point {
+            reaction: state.reaction.clone(),
+            displacement: state.verdict.displacement.clone(),
+            drift: vec![0.0; self.velocities()],
         }
-        let mut next = self.reaction_after(&balanced, &change);
-        self.snap(&laws, &mut next);
-        let moved = self.stiffness.motion(&change, reaction);
-        let motion: Vec<f64> = state.motion.iter().zip(moved).map(|(a, m)| a + m).collect();
-        let finite = next.iter().chain(&motion).all(|x| x.is_finite());
-        finite.then(|| Step {
-            first_stick: self.first_stick(&laws, displacement, &change),
-            reaction: next,
-            motion,
-        })
+    }
+
+    /// Amplitudes of the free modes after a drift.
+    pub(super) fn moved(&self, motion: &[f64], drift: &[f64]) -> Vec<f64> {
+        match &self.rigid {
+            None => Vec::new(),
+            Some(rigid) => {
+                let drift = rigid.basis.amplitudes(drift);
+                motion.iter().zip(drift).map(|(a, d)| a + d).collect()
+            }
+        }
+    }
+
+    /// What a state misses of the laws, as the root of an energy.
+    pub(super) fn missed(&self, state: &Iterate) -> f64 {
+        let springs = Springs {
+            softness: 0.0,
+            anchor: &state.reaction,
+        };
+        self.residual(&self.point(state), springs)
+    }
+
+    /// Size of a reaction, in the unit of [`residual`](Self::residual).
+    pub(super) fn size(&self, reaction: &[f64]) -> f64 {
+        let scaled = reaction.iter().zip(&self.roots).map(|(t, root)| t / root);
+        scaled.fold(0.0, f64::hypot)
+    }
+
+    /// What the rounding of a rigid motion alone may leave of the natural map, in newton.
+    pub(super) fn rounding(&self, reaction: &[f64], motion: &[f64]) -> f64 {
+        let Some(floating) = self.problem.floating() else {
+            return 0.0;
+        };
+        let unknowns = self.roots.iter().zip(reaction).enumerate();
+        let pressed = unknowns.filter(|(_, (_, t))| **t != 0.0);
+        let moved = pressed.map(|(row, (root, _))| {
+            let terms = motion.iter().enumerate();
+            let moved = terms.map(|(k, a)| floating.modes()[(row, k)] * a);
+            root * root * moved.fold(0.0, f64::hypot)
+        });
+        0.5 * f64::EPSILON * moved.fold(0.0, f64::hypot)
+    }
+
+    /// Products of two numbers that the last step took.
+    pub(super) fn products(&self) -> f64 {
+        self.last.as_ref().map_or(0.0, Factored::products)
+    }
+
+    /// Condition of the matrix of the last step; none before the first.
+    pub(super) fn condition(&self) -> Option<f64> {
+        self.last.as_ref().map(Factored::condition)
+    }
+
+    /// One step; `None` if the matrix of (D4) is singular. What each contact does is read off the
+    /// reaction and `seen`, a displacement: the point's own, or that of a neighbour.
+    pub(super) fn step(
+        &mut self,
+        from: &Point,
+        seen: &[f64],
+        springs: Springs<'_>,
+    ) -> Option<Point> {
+        let laws: Vec<Law> = (0..self.problem.contacts())
+            .filter_map(|contact| {
+                let local = self.local(contact, &from.reaction, seen, springs);
+                local.law(contact, self.block(contact))
+            })
+            .collect();
+        let mut next = self.opened(from, &laws);
+        let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.block.clone()).collect();
+        let matrix = Factored::new(&self.matrix(&laws, &unknowns, springs.softness));
+        let solution = matrix.solve(&self.right_side(&laws, &next, springs));
+        self.last = Some(matrix);
+        if !solution.iter().all(|x| x.is_finite()) {
+            return None;
+        }
+        for (&unknown, scaled) in unknowns.iter().zip(solution.iter()) {
+            self.push(&mut next, unknown, self.roots[unknown] * scaled);
+        }
+        if let Some(rigid) = &self.rigid {
+            let drift = solution.iter().skip(unknowns.len());
+            for (k, along) in drift.enumerate() {
+                next.drift[k] += along;
+                add(
+                    &mut next.displacement,
+                    *along,
+                    rigid.velocities.col_as_slice(k),
+                );
+            }
+        }
+        Some(next)
+    }
+
+    /// How far a point is from (D4) and (D5), as the root of an energy: sizes of the contacts do not weigh.
+    pub(super) fn residual(&self, at: &Point, springs: Springs<'_>) -> f64 {
+        let mut residual = 0.0_f64;
+        for contact in 0..self.problem.contacts() {
+            let defect = self.local(contact, &at.reaction, &at.displacement, springs);
+            let count = self.block(contact).len();
+            residual = defect.defect()[..count]
+                .iter()
+                .fold(residual, |sum, r| sum.hypot(*r));
+        }
+        let softer = (1.0 + springs.softness).sqrt();
+        let rest = self.imbalance(at, springs.softness);
+        rest.iter().fold(residual, |sum, e| sum.hypot(e / softer))
+    }
+
+    /// `Rᵀ t + e − σ (α − α_k)` along the velocities.
+    fn imbalance(&self, at: &Point, softness: f64) -> Vec<f64> {
+        let Some(rigid) = &self.rigid else {
+            return Vec::new();
+        };
+        let loads = rigid.load.iter().zip(&at.drift).enumerate();
+        loads
+            .map(|(k, (e, drift))| {
+                let column = rigid.velocities.col_as_slice(k).iter().zip(&at.reaction);
+                e + column.map(|(v, t)| v * t).sum::<f64>() - softness * drift
+            })
+            .collect()
+    }
+
+    /// Number of independent rigid motions.
+    fn velocities(&self) -> usize {
+        self.rigid.as_ref().map_or(0, |rigid| rigid.load.len())
     }
 
     fn block(&self, contact: usize) -> Range<usize> {
         self.problem.offsets()[contact]..self.problem.offsets()[contact + 1]
     }
 
-    fn state(&self, contact: usize, reaction: &[f64], displacement: &[f64]) -> State {
-        let (block, g) = (self.block(contact), self.problem.compliance());
-        let n = block.start;
-        let penetration = displacement[n] - self.problem.initial_gap()[contact];
-        if reaction[n] * g[(n, n)] >= penetration {
-            return State::Open;
+    /// A contact under springs.
+    fn local(
+        &self,
+        contact: usize,
+        reaction: &[f64],
+        displacement: &[f64],
+        springs: Springs<'_>,
+    ) -> Local {
+        let mut local = Local {
+            reaction: [0.0; 3],
+            beyond: [0.0; 3],
+            friction: self.friction(contact),
+            step: (1.0 + springs.softness).recip(),
+        };
+        let mut free = self.problem.initial_gap()[contact];
+        for (k, unknown) in self.block(contact).enumerate() {
+            let (t, root) = (reaction[unknown], self.roots[unknown]);
+            let spring = springs.softness * (t - springs.anchor[unknown]) / root;
+            local.reaction[k] = t / root;
+            local.beyond[k] = root * (displacement[unknown] - free) + spring;
+            free = 0.0;
         }
-        let step = self.tangential_step(contact);
-        let mut point = [0.0; 2];
-        for (p, unknown) in point.iter_mut().zip(n + 1..block.end) {
-            *p = reaction[unknown] - step * displacement[unknown];
-        }
-        let size = point[0].hypot(point[1]);
-        let bound = -self.problem.friction()[contact] * reaction[n].min(0.0);
-        if size <= bound {
-            return State::Stick;
-        }
-        State::Slip {
-            direction: point.map(|p| p / size),
-            ratio: bound / size,
+        local
+    }
+
+    /// μ between scaled reactions.
+    fn friction(&self, contact: usize) -> f64 {
+        match self.roots[self.block(contact)] {
+            [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
+            _ => 0.0,
         }
     }
 
-    /// ρ of the tangential natural map: tangents over the trace of G_TT, in N/m.
-    fn tangential_step(&self, contact: usize) -> f64 {
-        let tangents = self.block(contact).skip(1);
-        let (count, trace) = tangents.fold((0.0, 0.0), |(count, trace), unknown| {
-            (
-                count + 1.0,
-                trace + self.problem.compliance()[(unknown, unknown)],
-            )
-        });
-        if trace > 0.0 { count / trace } else { 0.0 }
-    }
-
-    /// (D4) of one contact.
-    fn law(&self, contact: usize, state: State) -> Law {
-        let block = self.block(contact);
-        let (mut unknowns, mut on_reaction, mut on_displacement) =
-            (block.clone(), Matrix3::identity(), Matrix3::zeros());
-        match state {
-            State::Open => {}
-            State::Stick => unknowns = block.end..block.end,
-            State::Slip { direction, ratio } => {
-                unknowns.start += 1;
-                let (mu, step) = (
-                    self.problem.friction()[contact],
-                    self.tangential_step(contact),
-                );
-                on_reaction = Matrix3::zeros();
-                for a in 0..unknowns.len() {
-                    on_reaction[(a, 0)] = mu * direction[a];
-                    for b in 0..unknowns.len() {
-                        let unit = if a == b { 1.0 } else { 0.0 };
-                        let m = ratio * (unit - direction[a] * direction[b]);
-                        on_reaction[(a, 1 + b)] = unit - m;
-                        on_displacement[(a, 1 + b)] = step * m;
-                    }
+    /// A point whose open contacts carry nothing.
+    fn opened(&self, from: &Point, laws: &[Law]) -> Point {
+        let mut next = from.clone();
+        let mut pressed = laws.iter().map(|law| law.contact).peekable();
+        for contact in 0..self.problem.contacts() {
+            if pressed.next_if_eq(&contact).is_none() {
+                for unknown in self.block(contact) {
+                    self.push(&mut next, unknown, -from.reaction[unknown]);
+                    next.reaction[unknown] = 0.0;
                 }
             }
         }
-        Law {
-            contact,
-            block,
-            state,
-            unknowns,
-            on_reaction,
-            on_displacement,
-        }
-    }
-
-    /// Part of `change` after which the first slip has ended, where bodies float.
-    ///
-    /// While every contact of an interface slips the bodies drift on freely, and (D4) is singular or
-    /// nearly so: the step is right in its direction only.
-    fn first_stick(&self, laws: &[Law], displacement: &[f64], change: &[f64]) -> Option<f64> {
-        self.problem.floating()?;
-        let slips = |law: &&Law| matches!(law.state, State::Slip { .. });
-        let slipping = laws.iter().filter(slips);
-        let parts = slipping.filter_map(|law| {
-            let tangents = law.block.start + 1..law.block.end;
-            let (mut square, mut turn) = (0.0, 0.0);
-            for (u, c) in displacement[tangents.clone()].iter().zip(&change[tangents]) {
-                square += u * u;
-                turn -= u * c;
-            }
-            (turn > square).then(|| BEYOND * square / turn)
-        });
-        parts.reduce(f64::min)
-    }
-
-    /// `δu` that closes the gap of pressed contacts and undoes the slip of sticking ones.
-    fn closing(&self, laws: &[Law], displacement: &[f64]) -> Vec<f64> {
-        let mut change = vec![0.0; displacement.len()];
-        for law in laws.iter().filter(|law| law.state != State::Open) {
-            let n = law.block.start;
-            change[n] = self.problem.initial_gap()[law.contact] - displacement[n];
-            if law.state == State::Stick {
-                for unknown in n + 1..law.block.end {
-                    change[unknown] = -displacement[unknown];
-                }
-            }
-        }
-        change
-    }
-
-    /// `t + S δu`.
-    fn reaction_after(&self, reaction: &[f64], change: &[f64]) -> Vec<f64> {
-        let mut next = reaction.to_vec();
-        matmul(
-            ColMut::from_slice_mut(&mut next),
-            Accum::Add,
-            self.stiffness.matrix.as_ref(),
-            ColRef::from_slice(change),
-            1.0,
-            Par::Seq,
-        );
         next
     }
 
-    /// Matrix of (D4) for `δu` at the unknowns.
-    fn matrix(&self, laws: &[Law], unknowns: &[usize]) -> Mat<f64> {
-        let mut matrix = Mat::zeros(unknowns.len(), unknowns.len());
+    /// Adds to the reaction at an unknown.
+    fn push(&self, point: &mut Point, unknown: usize, by: f64) {
+        if by != 0.0 {
+            point.reaction[unknown] += by;
+            let column = self.problem.compliance().col_as_slice(unknown);
+            add(&mut point.displacement, by, column);
+        }
+    }
+
+    /// Matrix of (D4) with (D5): reactions of contacts that are not open, then rigid motions.
+    fn matrix(&self, laws: &[Law], unknowns: &[usize], softness: f64) -> Mat<f64> {
+        let (reactions, motions) = (unknowns.len(), self.velocities());
+        let mut matrix = Mat::zeros(reactions + motions, reactions + motions);
         for (j, &unknown) in unknowns.iter().enumerate() {
-            let (stiffness, column) = (
-                self.stiffness.matrix.col_as_slice(unknown),
+            let moved = self.problem.compliance().col_as_slice(unknown);
+            self.column(
+                laws,
+                Some((unknown, softness)),
+                moved,
                 matrix.col_as_slice_mut(j),
             );
-            let mut rows = column.iter_mut();
-            for law in laws {
-                for (row, entry) in (0..law.unknowns.len()).zip(&mut rows) {
-                    *entry = law.reaction_row(row, stiffness);
-                    if law.block.contains(&unknown) {
-                        *entry += law.on_displacement[(row, unknown - law.block.start)];
-                    }
+        }
+        if let Some(rigid) = &self.rigid {
+            for k in 0..motions {
+                let velocity = rigid.velocities.col_as_slice(k);
+                let column = matrix.col_as_slice_mut(reactions + k);
+                self.column(laws, None, velocity, column);
+                column[reactions + k] = -softness;
+                for (j, &unknown) in unknowns.iter().enumerate() {
+                    matrix[(reactions + k, j)] = velocity[unknown] * self.roots[unknown];
                 }
             }
         }
         matrix
     }
 
-    /// What holds exactly at a solution is made exact: no reaction when open, friction on its disc when slipping.
-    fn snap(&self, laws: &[Law], reaction: &mut [f64]) {
+    /// Rows of all laws for something that moves the contacts: a reaction, with its spring, or a rigid motion.
+    fn column(&self, laws: &[Law], pushed: Option<(usize, f64)>, moved: &[f64], into: &mut [f64]) {
+        let (pushed, softness) = pushed.map_or((usize::MAX, 0.0), |pushed| pushed);
+        let scale = self.roots.get(pushed).copied().unwrap_or(1.0);
+        let mut rows = into.iter_mut();
         for law in laws {
-            match law.state {
-                State::Stick => {}
-                State::Open => reaction[law.block.clone()].fill(0.0),
-                State::Slip { .. } => {
-                    let normal = reaction[law.block.start].min(0.0);
-                    let tangents = &mut reaction[law.unknowns.clone()];
-                    let size = tangents.iter().fold(0.0_f64, |size, t| size.hypot(*t));
-                    let bound = -self.problem.friction()[law.contact] * normal;
-                    if size > 0.0 {
-                        tangents.iter_mut().for_each(|t| *t *= bound / size);
-                    }
-                }
+            let mut local = [0.0; 3];
+            for (local, k) in local.iter_mut().zip(law.block.clone()) {
+                *local = self.roots[k] * moved[k] * scale;
+            }
+            let own = law.block.clone().position(|k| k == pushed);
+            if let Some(own) = own {
+                local[own] += softness;
+            }
+            for (entry, value) in rows
+                .by_ref()
+                .take(law.block.len())
+                .zip(law.rows(local, own))
+            {
+                *entry = value;
             }
         }
     }
-}
 
-/// (D4) of one contact: `on_reaction · t + on_displacement · u = 0` on its block, a row
-/// per unknown.
-struct Law {
-    contact: usize,
-    block: Range<usize>,
-    state: State,
-    unknowns: Range<usize>,
-    on_reaction: Matrix3<f64>,
-    on_displacement: Matrix3<f64>,
-}
-
-impl Law {
-    /// A row of `on_reaction` times this block of `reaction`.
-    fn reaction_row(&self, row: usize, reaction: &[f64]) -> f64 {
-        let block = reaction[self.block.clone()].iter().enumerate();
-        block.map(|(k, t)| self.on_reaction[(row, k)] * t).sum()
-    }
-
-    /// A row of `on_displacement` times this block of `displacement`.
-    fn displacement_row(&self, row: usize, displacement: &[f64]) -> f64 {
-        let block = displacement[self.block.clone()].iter().enumerate();
-        block.map(|(k, u)| self.on_displacement[(row, k)] * u).sum()
+    /// Minus the residual of (D4) and (D5).
+    fn right_side(&self, laws: &[Law], at: &Point, springs: Springs<'_>) -> Col<f64> {
+        let contacts = laws.iter().flat_map(|law| {
+            let local = self.local(law.contact, &at.reaction, &at.displacement, springs);
+            law.missing(&local).into_iter().take(law.block.len())
+        });
+        let rest = self.imbalance(at, springs.softness);
+        contacts.chain(rest.into_iter().map(|e| -e)).collect()
     }
 }
 
-/// Minus the residual of (D4) with closed gaps and returned stick contacts.
-fn right_side(laws: &[Law], held: &[f64], displacement: &[f64]) -> Col<f64> {
-    let rows = laws.iter().flat_map(|law| {
-        let residual = |row| law.reaction_row(row, held) + law.displacement_row(row, displacement);
-        (0..law.unknowns.len()).map(move |row| -residual(row))
-    });
-    rows.collect()
+fn add(sum: &mut [f64], by: f64, column: &[f64]) {
+    for (sum, entry) in sum.iter_mut().zip(column) {
+        *sum += by * entry;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::mat;
+
+    use super::*;
+    use crate::kkt::Judge;
+    use crate::problem::{Floating, Operator};
+
+    /// One contact with G = [[1, −1], [−1, 2]], K = G⁻¹ = [[2, 1], [1, 1]], μ = 1/2: ρ = (1, 1/2).
+    fn contact(free: [f64; 2]) -> ContactProblem {
+        let operator = Operator::from_compliance(mat![[1.0, -1.0], [-1.0, 2.0]]).unwrap();
+        ContactProblem::new(&[1], vec![0.5], vec![0.0], free.to_vec(), operator).unwrap()
+    }
+
+    /// A step without springs.
+    fn step(problem: &ContactProblem, reaction: Vec<f64>, motion: Vec<f64>) -> Point {
+        let state = Iterate::new(&Judge::new(problem), reaction, motion);
+        let mut finish = Finish::new(problem).unwrap();
+        let springs = Springs {
+            softness: 0.0,
+            anchor: &state.reaction,
+        };
+        let from = finish.point(&state);
+        finish.step(&from, &from.displacement, springs).unwrap()
+    }
+
+    fn assert_close(found: &[f64], expected: &[f64]) {
+        let pairs = found.iter().zip(expected);
+        assert!(
+            pairs.clone().all(|(a, b)| (a - b).abs() < 1e-14),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn a_contact_at_rest_slips_in_one_step() {
+        // p = −(1 · 0.25, ½ · 0.5): 0.25 is more than μ · 0.25. u_N = 0.25 + t_N − t_T = 0, t_T = ½ t_N.
+        let found = step(&contact([0.25, 0.5]), vec![0.0; 2], Vec::new());
+        assert_close(&found.reaction, &[-0.5, -0.25]);
+        // u_T = 0.5 − t_N + 2 t_T.
+        assert_close(&found.displacement, &[0.0, 0.5]);
+    }
+
+    #[test]
+    fn a_contact_that_is_about_to_close_has_a_disc_and_sticks() {
+        // Nothing presses yet; the trial point (−1, −0.05) does, and its disc of radius ½ holds: t = −K û.
+        let found = step(&contact([1.0, 0.1]), vec![0.0; 2], Vec::new());
+        assert_close(&found.reaction, &[-2.1, -1.1]);
+        assert_close(&found.displacement, &[0.0; 2]);
+    }
+
+    #[test]
+    fn an_open_contact_lets_go() {
+        let found = step(&contact([-3.0, 0.1]), vec![-1.0, 0.2], Vec::new());
+        assert_eq!(found.reaction, [0.0; 2]);
+        assert_close(&found.displacement, &[-3.0, 0.1]);
+    }
+
+    /// Two smooth contacts of compliance ½ and ¼ m/N under a rigid lid that sinks by α and
+    /// tilts by β: u = G t + (α + β, α − β). It carries 6 N and 2 N on the modes.
+    fn lid() -> ContactProblem {
+        let operator = Operator::from_compliance(mat![[0.5, 0.0], [0.0, 0.25]]).unwrap();
+        let problem =
+            ContactProblem::new(&[0, 0], vec![0.0; 2], vec![0.0; 2], vec![0.0; 2], operator);
+        let modes = mat![[1.0, 1.0], [1.0, -1.0]];
+        let floating = Floating::new(modes, vec![6.0, 2.0]).unwrap();
+        problem.unwrap().float(floating).unwrap()
+    }
+
+    #[test]
+    fn a_lid_finds_its_equilibrium_and_its_motion() {
+        // t_1 + t_2 + 6 = 0 and t_1 − t_2 + 2 = 0; α + β = ½ · 4, α − β = ¼ · 2.
+        let problem = lid();
+        let start = vec![0.375, 0.125];
+        let found = step(&problem, vec![-1.0; 2], start.clone());
+        assert_close(&found.reaction, &[-4.0, -2.0]);
+        let finish = Finish::new(&problem).unwrap();
+        assert_close(&finish.moved(&start, &found.drift), &[1.25, 0.75]);
+    }
+
+    #[test]
+    fn nothing_is_missed_at_a_solution_and_the_root_of_an_energy_elsewhere() {
+        let problem = contact([0.25, 0.5]);
+        let (judge, finish) = (Judge::new(&problem), Finish::new(&problem).unwrap());
+        let missed =
+            |reaction: &[f64]| finish.missed(&Iterate::new(&judge, reaction.to_vec(), Vec::new()));
+        assert!(missed(&[-0.5, -0.25]) < 1e-15);
+        // At rest ρ_N u_N = ¼ and the friction that is missing is μ ¼: ¼/√ρ_N and ⅛/√ρ_T.
+        let expected = f64::hypot(0.25, 0.125 * 2.0_f64.sqrt());
+        assert!((missed(&[0.0, 0.0]) - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn springs_give_way_by_what_they_carry() {
+        // One smooth contact of 1 m/N, û = 1 m, with a spring of σ = 1: (1 + 1) t + 1 = 0.
+        let operator = Operator::from_compliance(mat![[1.0]]).unwrap();
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![0.0], vec![1.0], operator).unwrap();
+        let state = Iterate::new(&Judge::new(&problem), vec![0.0], Vec::new());
+        let mut finish = Finish::new(&problem).unwrap();
+        let springs = Springs {
+            softness: 1.0,
+            anchor: &[0.0],
+        };
+        let from = finish.point(&state);
+        let found = finish.step(&from, &from.displacement, springs).unwrap();
+        assert_close(&found.reaction, &[-0.5]);
+        assert!(finish.residual(&found, springs) < 1e-15);
+    }
 }

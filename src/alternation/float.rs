@@ -8,8 +8,6 @@
 
 use std::time::Instant;
 
-use faer::Mat;
-
 use super::run::Run;
 use super::{Failure, Shortfall};
 use crate::cone::CoulombProgram;
@@ -20,16 +18,16 @@ use crate::problem::Floating;
 /// The judge believes a failing motion that would take reactions of more than this times the load.
 const IMPOSSIBLE: f64 = 1e3;
 
-/// Tolerance of the first program, and the tightest.
-const TOLERANCE: (f64, f64) = (1e-8, 1e-13);
-
-/// From program to program: where the finish fails, it is for want of digits in the slip.
-const TIGHTER: f64 = 1e-2;
+/// Tolerance of the program: its state is a start for Newton steps.
+const TOLERANCE: f64 = 1e-8;
 
 impl Run<'_> {
     /// After a first program that led nowhere, asks whether any admissible reactions hold the
     /// bodies; a motion that proves the contrary, and that the judge believes, ends the run.
-    pub(super) fn doubt_equilibrium(&mut self, floating: &Floating) {
+    pub(super) fn doubt_equilibrium(&mut self) {
+        let Some(floating) = self.problem.floating() else {
+            return;
+        };
         if self.is_solved() || self.work.sweeps > 1 {
             return;
         }
@@ -43,23 +41,12 @@ impl Run<'_> {
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
 
-    /// (H8), with the equilibrium of the bodies that float, if any do.
-    pub(super) fn coulomb_program(&mut self, floating: Option<&Floating>) {
+    /// (H8) with the equilibrium of the bodies that float.
+    pub(super) fn coulomb_program(&mut self, floating: &Floating) {
         let start = Instant::now();
-        let none = Mat::zeros(self.problem.unknowns(), 0);
-        let (modes, load) = match floating {
-            Some(floating) => (floating.modes(), floating.load()),
-            None => (none.as_ref(), &[][..]),
-        };
-        let tolerance = TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
-        let tolerance = tolerance.max(TOLERANCE.1);
-        let mut program = self
-            .coulomb
-            .take()
-            .or_else(|| CoulombProgram::new(self.problem, modes));
-        let shift = &self.shift;
-        let solve = |program: &mut CoulombProgram<'_>| program.solve(load, shift, tolerance);
-        match program.as_mut().and_then(solve) {
+        let none = vec![0.0; self.problem.contacts()];
+        let program = CoulombProgram::new(self.problem, floating.modes());
+        match program.and_then(|mut program| program.solve(floating.load(), &none, TOLERANCE)) {
             Some(solution) => {
                 self.record.coulomb_iterations = solution.iterations;
                 self.work.cone_iterations += solution.iterations;
@@ -69,23 +56,7 @@ impl Run<'_> {
             }
             None => self.shortfall = Some(Shortfall::ConeSolver),
         }
-        self.coulomb = program;
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
-    }
-
-    /// The shift of the next program: the slip that this one left, accelerated (D3).
-    pub(super) fn shift_by_slip(&mut self) {
-        let u = &self.state.verdict.displacement;
-        let blocks = self.problem.offsets().windows(2);
-        let slips: Vec<f64> = blocks
-            .map(|ends| {
-                u[ends[0] + 1..ends[1]]
-                    .iter()
-                    .fold(0.0, |s: f64, u| s.hypot(*u))
-            })
-            .collect();
-        self.shift = self.anderson.next(&self.shift, &slips);
-        self.shift.iter_mut().for_each(|s| *s = s.max(0.0));
     }
 
     fn believe(
@@ -95,14 +66,7 @@ impl Run<'_> {
         motion: Vec<f64>,
         missing: f64,
     ) -> Option<Failure> {
-        let proof = kkt::impossibility(
-            self.problem.offsets(),
-            self.problem.friction(),
-            floating.modes(),
-            floating.load(),
-            &motion,
-        )
-        .ok()?;
+        let proof = self.proof(floating, &motion)?;
         let load = floating.load().iter().fold(0.0, |s: f64, e| s.hypot(*e));
         let apparent = contacts.failure(&motion);
         (proof.least_reaction > IMPOSSIBLE * load).then_some(Failure {
@@ -112,6 +76,47 @@ impl Run<'_> {
             opening: apparent.opening,
             missing,
             proof,
+            elastic: false,
         })
+    }
+
+    /// Whether springs that soften let the bodies move farther than `far`, in metre, since an earlier motion:
+    /// nothing else holds them.
+    pub(super) fn give_way(&mut self, before: &[f64], far: f64) -> bool {
+        let pairs = self.state.motion.iter().zip(before);
+        let motion: Vec<f64> = pairs.map(|(now, before)| now - before).collect();
+        self.failure = self.elastic_failure(motion, far);
+        self.failure.is_some()
+    }
+
+    fn elastic_failure(&self, motion: Vec<f64>, far: f64) -> Option<Failure> {
+        let floating = self.problem.floating()?;
+        let contacts = RigidContacts::of(self.problem, floating)?;
+        let moved = contacts.velocity(&motion);
+        if moved.iter().fold(0.0_f64, |most, v| most.max(v.abs())) < far {
+            return None;
+        }
+        let modes = floating.modes().col_iter().zip(floating.load());
+        let left = modes.map(|(mode, e)| {
+            let held = mode.iter().zip(&self.state.reaction);
+            e + held.map(|(r, t)| r * t).sum::<f64>()
+        });
+        let (motion, missing) = contacts.at_unit_speed(motion, &left.collect::<Vec<_>>());
+        let apparent = contacts.failure(&motion);
+        Some(Failure {
+            proof: self.proof(floating, &motion)?,
+            apparent: apparent.motion,
+            sliding: apparent.sliding,
+            opening: apparent.opening,
+            motion,
+            missing,
+            elastic: true,
+        })
+    }
+
+    /// What the judge finds of a motion.
+    fn proof(&self, floating: &Floating, motion: &[f64]) -> Option<kkt::Impossibility> {
+        let (offsets, friction) = (self.problem.offsets(), self.problem.friction());
+        kkt::impossibility(offsets, friction, floating.modes(), floating.load(), motion).ok()
     }
 }

@@ -13,19 +13,23 @@
 use crate::problem::ContactProblem;
 
 /// The passes over one problem; step lengths are computed once.
-pub(super) struct GaussSeidel<'a> {
+#[derive(Debug)]
+pub struct GaussSeidel<'a> {
     problem: &'a ContactProblem,
     steps: Vec<Step>,
 }
 
 /// Step lengths of a contact, in N/m; zero where the compliance vanishes.
+#[derive(Debug)]
 struct Step {
     normal: f64,
     tangential: f64,
 }
 
 impl<'a> GaussSeidel<'a> {
-    pub(super) fn new(problem: &'a ContactProblem) -> Self {
+    /// For all contacts of a problem.
+    #[must_use]
+    pub fn new(problem: &'a ContactProblem) -> Self {
         let steps = problem.offsets().windows(2).map(|block| {
             let [n, end] = [block[0], block[1]];
             let g = problem.compliance();
@@ -46,7 +50,7 @@ impl<'a> GaussSeidel<'a> {
     }
 
     /// One pass; returns the change of the reaction, relative to the reaction.
-    pub(super) fn pass(&self, reaction: &mut [f64]) -> f64 {
+    pub fn pass(&self, reaction: &mut [f64]) -> f64 {
         let (mut change, mut size) = (0.0, 0.0);
         for contact in 0..self.problem.contacts() {
             let range = self.problem.offsets()[contact]..self.problem.offsets()[contact + 1];
@@ -123,4 +127,25 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     lanes.iter().sum::<f64>() + rest
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::mat;
+
+    use super::*;
+    use crate::problem::Operator;
+
+    #[test]
+    fn a_pass_presses_then_rubs_each_contact() {
+        // G = [[1, −1], [−1, 2]], û = (0.25, 0.5), μ = ½: t_N = −¼; then u_T = 0.5 + 0.25, and −u_T/2 is more
+        // than the bound of ⅛.
+        let operator = Operator::from_compliance(mat![[1.0, -1.0], [-1.0, 2.0]]).unwrap();
+        let free = vec![0.25, 0.5];
+        let problem = ContactProblem::new(&[1], vec![0.5], vec![0.0], free, operator).unwrap();
+        let mut reaction = vec![0.0; 2];
+        assert_eq!(GaussSeidel::new(&problem).pass(&mut reaction), 1.0);
+        assert_eq!(reaction, [-0.25, -0.125]);
+    }
 }

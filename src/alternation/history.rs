@@ -9,8 +9,8 @@ pub struct Outcome {
     pub status: Status,
     /// Why the solve ended without a certificate, with [`Status::NotConverged`].
     pub shortfall: Option<Shortfall>,
-    /// Condition of the compliance, each unknown in units of its own diagonal entry: an estimate from
-    /// below; infinite where forces cannot be told apart; none where no stiffness was needed.
+    /// Condition of the last Newton matrix, each unknown in units of its own (D7), about: a residual of r
+    /// leaves reactions wrong by up to so many r; none where no Newton step was needed.
     pub condition: Option<f64>,
     /// Reaction per unknown, in newton.
     pub reaction: Vec<f64>,
@@ -41,18 +41,25 @@ pub struct Failure {
     pub missing: f64,
     /// What the judge found of the motion.
     pub proof: Impossibility,
+    /// Rigid bodies could be held; these give way: their contacts carry all they can, and the motion
+    /// goes on without more resistance.
+    pub elastic: bool,
 }
 
 /// How a solve ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The judge's residual is at most the tolerance.
+    /// The judge's residual is at most the tolerance, see [`Settings::tolerance`](super::Settings::tolerance).
     Certified,
     /// The best state found is returned with its residuals; it is not certified: see
     /// [`Outcome::shortfall`].
     NotConverged,
     /// No admissible contact forces hold the bodies: see [`Outcome::failure`].
     NoEquilibrium,
+    /// The problem is solved, but the bodies of the scene are not in the state that it says: forces that
+    /// their sides exchange, or distances between them, are off by more than rounding and mesh explain.
+    /// Said of scenes, never of a bare problem.
+    CouplingFault,
 }
 
 /// Why a solve ended without a certificate; the best state found is returned all the same.
@@ -65,13 +72,17 @@ pub enum Shortfall {
         /// Their number.
         sweeps: usize,
     },
+    /// The time that the settings allow ran out.
+    TimeLimit,
+    /// The flag of the settings was raised.
+    Interrupted,
     /// The cone solver gave up on a half-step's program.
     ConeSolver,
-    /// Sweeps led to no better state, and the compliance hardly tells contacts apart: a residual of
-    /// one rounding leaves reactions wrong by more than the tolerance.
+    /// Reactions that grow without bound meet no resistance but that of the last digits of G: the
+    /// residual is small beside them, and what acts is not answered.
     IllConditioned {
-        /// Condition of the compliance, see [`Outcome::condition`].
-        condition: f64,
+        /// The reaction over what acts.
+        excess: f64,
     },
     /// The contacts are solved, but what was recovered of a body is not in equilibrium (K4): its cells
     /// leave the stiffness no digits.
@@ -127,8 +138,8 @@ pub struct Work {
     pub friction_program_contacts: usize,
     /// Newton steps.
     pub newton_steps: usize,
-    /// Coefficients of friction that were passed through on the way up to the problem's own (D9).
-    pub friction_parts: usize,
+    /// Subproblems of the proximal loop, solved or thrown away (D6).
+    pub proximal_steps: usize,
     /// Contacts that changed what they do, one after the other, on a path from afar (D10).
     pub path_changes: usize,
     /// Seconds of prediction, half-steps, finish, judge.

@@ -3,9 +3,9 @@
 //! ```text
 //! predict    which contacts are open, pressed, stuck
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
-//! finish     semismooth Newton on the laws, kept only if the judge's residual falls
-//! path       if that failed twice: friction raised from nothing by Newton steps; then in the plane the
-//!            surfaces brought together from afar, in space friction lowered from rough
+//! finish     Newton steps on the laws (D4), kept only if the judge's residual falls
+//! proximal   where a finish fails: a proximal point loop around Newton steps (D6)
+//! approach   where that fails too, in the plane: the surfaces brought together from afar (D10)
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!
@@ -22,26 +22,27 @@
 mod anderson;
 mod condition;
 mod contraction;
-mod exact;
 mod finish;
 mod float;
 mod gauss_seidel;
 mod history;
 mod iterate;
+mod laws;
 mod path;
 mod prediction;
+mod proximal;
 mod run;
 mod settings;
 mod starts;
-mod stiffness;
 
+pub use anderson::Anderson;
 pub(crate) use contraction::Contraction;
 pub use contraction::contraction;
+pub use gauss_seidel::GaussSeidel;
 pub(crate) use history::Failure;
 pub use history::{Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use path::continuity::{Earlier, WayBack, way_back};
-pub(crate) use settings::Mixing;
-pub use settings::{Settings, Sweeps, Variant};
+pub use settings::{Interrupt, Settings};
 pub(crate) use starts::OtherStarts;
 pub use starts::other_starts;
 
@@ -53,9 +54,9 @@ use run::Run;
 ///
 /// # Errors
 ///
-/// Settings outside their range, and a variant for study on bodies that float.
+/// Settings outside their range.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
-    check(problem, settings)?;
+    settings.validate()?;
     Ok(run(Run::new(problem, settings)))
 }
 
@@ -74,7 +75,21 @@ pub fn solve_from(
     reaction: &[f64],
     motion: &[f64],
 ) -> Result<Outcome, Error> {
-    run_from(problem, settings, reaction, motion, None)
+    Ok(run(begun(problem, settings, (reaction, motion), None)?))
+}
+
+/// Newton steps on the laws from a state (D4), and nothing else: what a sweep for study ends with.
+///
+/// # Errors
+///
+/// Those of [`solve_from`].
+pub fn finish(
+    problem: &ContactProblem,
+    settings: &Settings,
+    reaction: &[f64],
+    motion: &[f64],
+) -> Result<Outcome, Error> {
+    Ok(begun(problem, settings, (reaction, motion), None)?.into_outcome())
 }
 
 /// Solves a condensed contact problem from a solved neighbour: the same contacts under a little
@@ -95,103 +110,49 @@ pub fn solve_near(
     let displacement = &near.verdict.displacement;
     check_length("displacement", problem.unknowns(), displacement.len())?;
     check_finite("displacement", displacement)?;
-    run_from(
-        problem,
-        settings,
-        &near.reaction,
-        &near.motion,
-        Some(displacement),
-    )
+    let state = (&near.reaction[..], &near.motion[..]);
+    Ok(run(begun(problem, settings, state, Some(displacement))?))
 }
 
-fn run_from(
-    problem: &ContactProblem,
-    settings: &Settings,
-    reaction: &[f64],
-    motion: &[f64],
+/// A solve that begins from a state, after a first finish.
+fn begun<'a>(
+    problem: &'a ContactProblem,
+    settings: &'a Settings,
+    (reaction, motion): (&[f64], &[f64]),
     displacement: Option<&[f64]>,
-) -> Result<Outcome, Error> {
-    check(problem, settings)?;
+) -> Result<Run<'a>, Error> {
+    settings.validate()?;
     check_length("reaction", problem.unknowns(), reaction.len())?;
     check_length("motion", problem.free_modes(), motion.len())?;
     check_finite("reaction", reaction)?;
     check_finite("motion", motion)?;
-    let mut near = Run::new(problem, settings);
-    near.begin_from(reaction, motion, displacement);
-    Ok(run(near))
-}
-
-fn check(problem: &ContactProblem, settings: &Settings) -> Result<(), Error> {
-    settings.validate()?;
-    if settings.variant != Variant::Default && problem.floating().is_some() {
-        return Err(Error::NotAccepted {
-            place: "settings.variant".to_owned(),
-            found: format!("{:?}", settings.variant),
-            accepted: "Default, as supports do not hold every body".to_owned(),
-        });
-    }
-    Ok(())
+    let mut run = Run::new(problem, settings);
+    run.begin_from(reaction, motion, displacement);
+    Ok(run)
 }
 
 fn run(mut run: Run<'_>) -> Outcome {
-    match (run.variant(), run.problem.floating()) {
-        (Variant::Default, Some(floating)) => {
-            while run.goes_on() {
-                run.begin_sweep();
-                run.coulomb_program(Some(floating));
-                run.judge();
-                run.shift_by_slip();
-                run.newton_finish();
-                run.end_sweep();
-                run.doubt_equilibrium(floating);
-            }
-        }
-        (Variant::Default, None) => {
-            let mut cold = !run.is_solved();
-            if cold {
-                run.predict();
-            }
-            while cold || run.goes_on() {
-                cold = false;
-                run.begin_sweep();
+    let mut cold = !run.is_solved();
+    if cold {
+        run.predict();
+    }
+    while cold || run.goes_on() {
+        cold = false;
+        run.begin_sweep();
+        match run.problem.floating() {
+            None => {
                 run.normal_half_step();
                 run.accelerate();
                 run.friction_half_step();
-                run.judge();
-                run.newton_finish();
-                run.follow_a_path();
-                run.end_sweep();
             }
+            Some(floating) => run.coulomb_program(floating),
         }
-        (Variant::Sweeps(sweeps), _) => {
-            while run.goes_on() {
-                run.begin_sweep();
-                run.normal_half_step();
-                run.mix(sweeps.mixing);
-                run.friction_half_step();
-                run.judge();
-                if sweeps.finish {
-                    run.newton_finish();
-                }
-                run.end_sweep();
-            }
-        }
-        (Variant::FullCone, _) => {
-            while run.goes_on() {
-                run.begin_sweep();
-                run.coulomb_program(None);
-                run.judge();
-                run.shift_by_slip();
-                run.end_sweep();
-            }
-        }
-        (Variant::Nsgs, _) => {
-            while run.goes_on() {
-                run.begin_sweep();
-                run.gauss_seidel_pass();
-                run.end_sweep();
-            }
-        }
+        run.judge();
+        run.newton_finish();
+        run.doubt_equilibrium();
+        run.proximal_steps();
+        run.approach_from_afar();
+        run.end_sweep();
     }
     run.into_outcome()
 }

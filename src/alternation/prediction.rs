@@ -97,3 +97,32 @@ fn keep_least(roles: &mut [Role], margin: impl Fn(usize) -> f64) {
         roles[least] = Role::Cone;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::Mat;
+
+    use super::*;
+    use crate::problem::Operator;
+
+    #[test]
+    fn contacts_are_decided_by_their_indentation_and_their_friction() {
+        // Pressed by 4 with little friction, pressed by 4 on its disc, open by 4, and just touching.
+        let operator = Operator::from_compliance(Mat::identity(8, 8)).unwrap();
+        let zero = vec![0.0; 8];
+        let problem =
+            ContactProblem::new(&[1; 4], vec![0.5; 4], vec![0.0; 4], zero, operator).unwrap();
+        let reaction = [-4.0, 0.2, -4.0, 2.0, 0.0, 0.0, -0.1, 0.0];
+        let displacement = [0.0, 0.0, 0.0, 0.0, -4.0, 0.0, 0.0, 0.0];
+        let found = Roles::predict(&problem, &reaction, &displacement);
+        assert_eq!(
+            found.normal,
+            [Role::Free, Role::Free, Role::Absent, Role::Cone]
+        );
+        assert_eq!(
+            found.friction,
+            [Role::Free, Role::Cone, Role::Absent, Role::Cone]
+        );
+    }
+}

@@ -3,15 +3,13 @@
 use std::time::Instant;
 
 use super::anderson::Anderson;
-use super::condition::condition;
-use super::finish::Finish;
+use super::finish::{Finish, Springs};
 use super::gauss_seidel::GaussSeidel;
-use super::iterate::{Iterate, Step};
+use super::iterate::Iterate;
 use super::prediction::Roles;
-use super::{
-    Failure, Mixing, Outcome, Settings, Shortfall, Status, SweepRecord, Variant, Work, exact,
-};
-use crate::cone::{CoulombProgram, FrictionHalfStep, HalfStepWork, NormalHalfStep};
+use super::settings::Clock;
+use super::{Failure, Outcome, Settings, Shortfall, Status, SweepRecord, Work};
+use crate::cone::{FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
 use crate::problem::ContactProblem;
 
@@ -31,31 +29,37 @@ const CONE_TOLERANCE: (f64, f64) = (1e-12, 1e-2);
 const NEWTON_STEPS: (usize, usize) = (12, 3);
 
 /// Sweeps without a better state after which the solve gives up.
-const PATIENCE: usize = 30;
+const PATIENCE: usize = 3;
 
-/// A residual below this many times what round-off may leave, and not improved by so many sweeps,
-/// is round-off.
+/// A residual below this many times what round-off may leave is round-off.
 const ROUNDED: f64 = 4.0;
-const UNIMPROVED: usize = 2;
+
+/// However far bodies that float move, their states are judged to this at least.
+const ROUGHEST: f64 = 1e-9;
+
+/// What is left of what the laws miss at rest where a state answers it.
+const ANSWERED: f64 = 1e-3;
 
 /// A solve in progress.
 pub(super) struct Run<'a> {
     pub(super) problem: &'a ContactProblem,
     settings: &'a Settings,
     judge: Judge<'a>,
-    pub(super) normal: NormalHalfStep<'a>,
+    normal: NormalHalfStep<'a>,
     friction: FrictionHalfStep<'a>,
     gauss_seidel: GaussSeidel<'a>,
-    /// Shift of the last program over all Coulomb cones, in metre per contact.
-    pub(super) shift: Vec<f64>,
-    pub(super) anderson: Anderson,
+    anderson: Anderson,
     roles: Roles,
-    pub(super) coulomb: Option<CoulombProgram<'a>>,
-    finish: Option<Finish<'a>>,
+    pub(super) finish: Option<Finish<'a>>,
+    pub(super) clock: Clock,
+    /// What the laws miss at rest, see [`Finish::residual`].
+    rest: f64,
     /// The iterate.
     pub(super) state: Iterate,
+    /// Where the last finish began.
+    pub(super) start: Iterate,
     /// The state of least residual so far.
-    best: Iterate,
+    pub(super) best: Iterate,
     /// Sweep that found it.
     found: usize,
     /// Normal reaction at the start of the sweep.
@@ -77,6 +81,7 @@ impl<'a> Run<'a> {
             vec![0.0; problem.unknowns()],
             vec![0.0; problem.free_modes()],
         );
+        let finish = Finish::new(problem);
         Self {
             problem,
             settings,
@@ -85,10 +90,11 @@ impl<'a> Run<'a> {
             friction: FrictionHalfStep::new(problem),
             gauss_seidel: GaussSeidel::new(problem),
             anderson: Anderson::default(),
-            shift: vec![0.0; problem.contacts()],
             roles: Roles::full(problem.contacts()),
-            coulomb: None,
-            finish: None,
+            rest: finish.as_ref().map_or(0.0, |finish| finish.missed(&state)),
+            finish,
+            clock: Clock::start(settings),
+            start: state.clone(),
             best: state.clone(),
             found: 0,
             state,
@@ -115,18 +121,49 @@ impl<'a> Run<'a> {
         self.judge();
         // Rest may be a state too, but it is not the one that is asked for.
         self.best = self.state.clone();
-        if self.settings.variant == Variant::Default {
-            self.newton_steps(displacement);
+        self.newton_steps(displacement);
+    }
+
+    /// The judge's residual of the best state is at most the tolerance, and not for want of digits only.
+    pub(super) fn is_solved(&self) -> bool {
+        self.is_within() && !self.is_unanswered()
+    }
+
+    /// Equilibrium to the tolerance; the laws as well, or to what the rounding of rigid motions leaves of them.
+    fn is_within(&self) -> bool {
+        let (found, tolerance) = (&self.best.verdict.certificate, self.settings.tolerance);
+        found.equilibrium.scaled <= tolerance
+            && (found.natural_map <= tolerance
+                || found.natural_map <= self.rounding().min(ROUGHEST))
+    }
+
+    /// What the rounding of rigid motions alone may leave of the natural map.
+    fn rounding(&self) -> f64 {
+        let (reaction, motion) = (&self.best.reaction, &self.best.motion);
+        let size = reaction.iter().fold(0.0_f64, |size, t| size.hypot(*t));
+        match &self.finish {
+            Some(finish) if size > 0.0 => finish.rounding(reaction, motion) / size,
+            _ => 0.0,
         }
     }
 
-    pub(super) fn variant(&self) -> Variant {
-        self.settings.variant
+    /// Residuals are relative to the reaction. One that grows without bound, where only the last digits of G
+    /// resist it, answers nothing.
+    fn is_unanswered(&self) -> bool {
+        self.is_within() && self.best.residual() * self.excess() > ANSWERED
     }
 
-    /// The judge's residual of the best state is at most the tolerance.
-    pub(super) fn is_solved(&self) -> bool {
-        self.best.residual() <= self.settings.tolerance
+    /// The reaction over what acts on the contacts at rest.
+    fn excess(&self) -> f64 {
+        let size = self
+            .finish
+            .as_ref()
+            .map_or(0.0, |finish| finish.size(&self.best.reaction));
+        if self.rest > 0.0 {
+            size / self.rest
+        } else {
+            0.0
+        }
     }
 
     pub(super) fn goes_on(&self) -> bool {
@@ -134,8 +171,19 @@ impl<'a> Run<'a> {
         !self.is_solved() && !ended && self.work.sweeps < self.settings.max_sweeps
     }
 
-    /// A few Gauss–Seidel passes tell which contacts need a cone.
+    /// Ends the solve if its time is over.
+    pub(super) fn is_over(&mut self) -> bool {
+        if let Some(reason) = self.clock.over() {
+            self.shortfall = Some(reason);
+        }
+        self.clock.over().is_some()
+    }
+
+    /// A few Gauss–Seidel passes tell which contacts need a cone, where bodies are held.
     pub(super) fn predict(&mut self) {
+        if self.problem.floating().is_some() {
+            return;
+        }
         let start = Instant::now();
         for _ in 0..PREDICTION_PASSES {
             self.work.passes += 1;
@@ -152,13 +200,8 @@ impl<'a> Run<'a> {
         self.record = SweepRecord::default();
         self.sweep_start = Instant::now();
         self.before = self.normal_reaction();
-        if self.settings.variant == Variant::Default {
-            self.roles = Roles::predict(
-                self.problem,
-                &self.state.reaction,
-                &self.state.verdict.displacement,
-            );
-        }
+        let displacement = &self.state.verdict.displacement;
+        self.roles = Roles::predict(self.problem, &self.state.reaction, displacement);
     }
 
     /// (H1).
@@ -169,26 +212,9 @@ impl<'a> Run<'a> {
             .normal
             .solve(&mut self.state.reaction, roles, tolerance);
         let work = self.count(work);
-        if self.is_exact() {
-            exact::normal(self.problem, &mut self.state.reaction);
-        }
         self.record.normal_iterations = work.iterations;
         self.work.normal_programs += work.programs;
         self.work.seconds.normal += start.elapsed().as_secs_f64();
-    }
-
-    /// Takes the normal reaction on as a sweep for study asks.
-    pub(super) fn mix(&mut self, mixing: Mixing) {
-        match mixing {
-            Mixing::None => {}
-            Mixing::Relaxed(part) => {
-                for (contact, before) in self.before.iter().enumerate() {
-                    let t = &mut self.state.reaction[self.problem.offsets()[contact]];
-                    *t = before + part * (*t - before);
-                }
-            }
-            Mixing::Anderson => self.accelerate(),
-        }
     }
 
     /// (D3) on the normal reaction, clipped to t_N ≤ 0.
@@ -208,9 +234,6 @@ impl<'a> Run<'a> {
             .friction
             .solve(&mut self.state.reaction, roles, tolerance);
         let work = self.count(work);
-        if self.is_exact() {
-            exact::friction(self.problem, &mut self.state.reaction);
-        }
         self.record.friction_iterations = work.iterations;
         self.work.friction_programs += work.programs;
         self.work.friction_program_contacts = self.work.friction_program_contacts.max(work.cones);
@@ -239,22 +262,28 @@ impl<'a> Run<'a> {
 
     fn newton_steps(&mut self, mut near: Option<&[f64]>) {
         let start = Instant::now();
-        let Some(finish) = self.finish.take().or_else(|| Finish::new(self.problem)) else {
-            return;
-        };
+        self.start = self.state.clone();
         let mut trial = self.state.clone();
         let mut idle = 0;
         for _ in 0..NEWTON_STEPS.0 {
-            if self.is_solved() || idle == NEWTON_STEPS.1 {
+            if self.is_solved() || idle == NEWTON_STEPS.1 || self.is_over() {
                 break;
             }
             let states = near.take().unwrap_or(&trial.verdict.displacement);
-            let Some(step) = finish.step(&trial, states) else {
+            let springs = Springs {
+                softness: 0.0,
+                anchor: &trial.reaction,
+            };
+            let Some(finish) = self.finish.as_mut() else {
                 break;
             };
+            let Some(next) = finish.step(&finish.point(&trial), states, springs) else {
+                break;
+            };
+            let motion = finish.moved(&trial.motion, &next.drift);
             self.record.newton_steps += 1;
             self.work.newton_steps += 1;
-            trial = self.after(&trial, &step);
+            trial = Iterate::new(&self.judge, next.reaction, motion);
             idle += 1;
             if trial.residual() < self.state.residual() {
                 self.state = trial.clone();
@@ -262,33 +291,7 @@ impl<'a> Run<'a> {
             }
             self.keep(&trial);
         }
-        self.finish = Some(finish);
         self.work.seconds.finish += start.elapsed().as_secs_f64();
-    }
-
-    /// The state after a Newton step; where bodies float and the whole step is no gain, after the
-    /// part of it that leads to the first slip that ends.
-    fn after(&self, trial: &Iterate, step: &Step) -> Iterate {
-        let whole = trial.moved(step, 1.0, &self.judge);
-        match step.first_stick {
-            Some(part) if whole.residual() >= trial.residual() => {
-                trial.moved(step, part, &self.judge)
-            }
-            _ => whole,
-        }
-    }
-
-    /// One pass of the baseline; the judge is asked when the pass changes little, and after
-    /// 1, 2, 4, 8 … passes.
-    pub(super) fn gauss_seidel_pass(&mut self) {
-        let start = Instant::now();
-        self.work.passes += 1;
-        let change = self.gauss_seidel.pass(&mut self.state.reaction);
-        self.work.seconds.predict += start.elapsed().as_secs_f64();
-        let asked = self.work.sweeps == self.settings.max_sweeps;
-        if asked || self.work.sweeps.is_power_of_two() || change <= self.settings.tolerance {
-            self.judge();
-        }
     }
 
     pub(super) fn end_sweep(&mut self) {
@@ -309,17 +312,25 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Why more sweeps would not help, if so; sweeps for study go on.
+    /// Why more sweeps would not help, if so.
     fn hopeless(&self) -> Option<Shortfall> {
-        let sweeps = self.work.sweeps - self.found;
-        if self.settings.variant != Variant::Default || sweeps < UNIMPROVED {
-            return None;
+        if let Some(over) = self.clock.over() {
+            return Some(over);
         }
-        let floor = self.judge.round_off(&self.best.reaction);
+        let sweeps = self.work.sweeps - self.found;
+        let floor = self
+            .judge
+            .round_off(&self.best.reaction)
+            .max(self.rounding());
         if self.best.residual() <= ROUNDED * floor {
             return Some(Shortfall::RoundOff { floor });
         }
-        (sweeps >= PATIENCE).then_some(Shortfall::Stalled { sweeps })
+        // The program over all Coulomb cones would only be posed again.
+        let most = match self.problem.floating() {
+            None => PATIENCE,
+            Some(_) => 0,
+        };
+        (sweeps >= most).then_some(Shortfall::Stalled { sweeps })
     }
 
     pub(super) fn into_outcome(self) -> Outcome {
@@ -330,15 +341,12 @@ impl<'a> Run<'a> {
         } else {
             Status::NotConverged
         };
-        let stalled = matches!(self.shortfall, Some(Shortfall::Stalled { .. }));
-        let asked = stalled || self.finish.is_some();
-        let condition = asked.then(|| condition(self.problem));
-        let uncertain = self.settings.tolerance / f64::EPSILON;
-        let shortfall = match (self.shortfall, condition) {
-            (Some(Shortfall::Stalled { .. }), Some(condition)) if condition > uncertain => {
-                Shortfall::IllConditioned { condition }
-            }
-            (known, _) => known.unwrap_or(Shortfall::SweepLimit),
+        let condition = self.finish.as_ref().and_then(Finish::condition);
+        let shortfall = match self.shortfall {
+            _ if self.is_unanswered() => Shortfall::IllConditioned {
+                excess: self.excess(),
+            },
+            known => known.unwrap_or(Shortfall::SweepLimit),
         };
         Outcome {
             status,
@@ -353,20 +361,14 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Tied to the outer residual. A cone program leaves the natural map at about the root of its
-    /// tolerance: without prediction and finish only the square keeps sweeps going.
-    pub(super) fn cone_tolerance(&self) -> f64 {
+    /// Tied to the outer residual.
+    fn cone_tolerance(&self) -> f64 {
         let (tightest, loosest) = CONE_TOLERANCE;
-        let wanted = INEXACT * self.state.residual();
-        match self.settings.variant {
-            Variant::Sweeps(sweeps) if sweeps.exact => tightest,
-            Variant::Sweeps(_) => wanted.powi(2).clamp(tightest, loosest),
-            _ => wanted.clamp(tightest, loosest),
-        }
+        (INEXACT * self.state.residual()).clamp(tightest, loosest)
     }
 
-    fn is_exact(&self) -> bool {
-        matches!(self.settings.variant, Variant::Sweeps(sweeps) if sweeps.exact)
+    pub(super) fn tolerance(&self) -> f64 {
+        self.settings.tolerance
     }
 
     fn normal_reaction(&self) -> Vec<f64> {
@@ -382,5 +384,65 @@ impl<'a> Run<'a> {
         let work = work.unwrap_or_default();
         self.work.cone_iterations += work.iterations;
         work
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use std::sync::atomic::AtomicBool;
+    use std::time::Duration;
+
+    use faer::mat;
+
+    use crate::alternation::{Interrupt, Outcome, Settings, Shortfall, Status, solve};
+    use crate::problem::{ContactProblem, Operator};
+
+    /// G = [[1, −1], [−1, 2]], û = (0.25, 0.5), μ = ½: slips with t = (−½, −¼).
+    fn solved(settings: &Settings) -> Outcome {
+        let operator = Operator::from_compliance(mat![[1.0, -1.0], [-1.0, 2.0]]).unwrap();
+        let free = vec![0.25, 0.5];
+        let problem = ContactProblem::new(&[1], vec![0.5], vec![0.0], free, operator).unwrap();
+        solve(&problem, settings).unwrap()
+    }
+
+    #[test]
+    fn a_cold_start_is_one_sweep_and_one_newton_step() {
+        let found = solved(&Settings::default());
+        assert_eq!(found.status, Status::Certified);
+        assert!(
+            (found.reaction[0] + 0.5).abs() < 1e-15 && (found.reaction[1] + 0.25).abs() < 1e-15
+        );
+        assert!(
+            (found.work.sweeps, found.work.proximal_steps) == (1, 0),
+            "{:?}",
+            found.work
+        );
+        assert!(found.work.newton_steps <= 1, "{:?}", found.work);
+    }
+
+    #[test]
+    fn time_that_is_over_leaves_the_best_state() {
+        let settings = Settings {
+            tolerance: 1e-15,
+            time_limit: Some(Duration::ZERO),
+            ..Settings::default()
+        };
+        let found = solved(&settings);
+        assert_eq!(found.shortfall, Some(Shortfall::TimeLimit));
+        assert_eq!(found.work.newton_steps, 0);
+        // One sweep of an alternation that contracts by a half, after passes to a hundredth.
+        assert!(found.verdict.certificate.natural_map < 0.1);
+    }
+
+    #[test]
+    fn a_raised_flag_ends_a_solve() {
+        static FLAG: AtomicBool = AtomicBool::new(true);
+        let settings = Settings {
+            tolerance: 1e-15,
+            interrupt: Some(Interrupt::new(&FLAG)),
+            ..Settings::default()
+        };
+        assert_eq!(solved(&settings).shortfall, Some(Shortfall::Interrupted));
     }
 }

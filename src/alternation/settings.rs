@@ -1,61 +1,50 @@
 //! What a caller may choose. Nothing here has to be tuned.
 
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use super::Shortfall;
 use crate::error::Error;
-
-/// Which outer loop runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Variant {
-    /// Prediction, accelerated sweeps on working sets, Newton finish.
-    #[default]
-    Default,
-    /// Sweeps of full programs without prediction, for study.
-    Sweeps(Sweeps),
-    /// Fixed point of one program over all Coulomb cones (H8), for study.
-    FullCone,
-    /// Projected block Gauss–Seidel on all contacts, the baseline, for study.
-    Nsgs,
-}
-
-impl Variant {
-    /// Unaccelerated exact sweeps: the alternation itself.
-    pub const PLAIN: Self = Self::Sweeps(Sweeps {
-        mixing: Mixing::None,
-        exact: true,
-        finish: false,
-    });
-}
-
-/// How sweeps are run for study.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sweeps {
-    /// What follows the normal half-step.
-    pub mixing: Mixing,
-    /// Half-steps to the last digit (D6); else tied to the outer residual.
-    pub exact: bool,
-    /// A Newton finish after every sweep.
-    pub finish: bool,
-}
-
-/// How the normal reaction is taken on from sweep to sweep.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Mixing {
-    /// As the half-step left it.
-    None,
-    /// This part of the way to it, in (0, 1].
-    Relaxed(f64),
-    /// By Anderson acceleration.
-    Anderson,
-}
 
 /// Settings of the outer loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Largest natural-map residual that counts as solved.
+    /// Largest residual that counts as solved. Between bodies that float and move far beside what their contacts
+    /// indent (own weight on facets) the rounding of the motion may leave more of the natural map than that, and up
+    /// to 1e-9 of it is accepted then.
     pub tolerance: f64,
-    /// Sweeps (or Gauss–Seidel passes) after which the solve gives up.
+    /// Sweeps after which the solve gives up.
     pub max_sweeps: usize,
-    /// Which outer loop runs.
-    pub variant: Variant,
+    /// Time after which a solve gives up with its best state; it is asked between half-steps and
+    /// Newton steps, and ends none of them.
+    pub time_limit: Option<Duration>,
+    /// Ends a solve from elsewhere, with its best state.
+    pub interrupt: Option<Interrupt>,
+}
+
+/// A flag that ends solves once it is raised, as by a signal or another thread.
+#[derive(Clone, Copy, Debug)]
+pub struct Interrupt(&'static AtomicBool);
+
+impl Interrupt {
+    /// Watches a flag.
+    #[must_use]
+    pub const fn new(flag: &'static AtomicBool) -> Self {
+        Self(flag)
+    }
+
+    /// Whether the flag is raised.
+    #[must_use]
+    pub fn is_raised(self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl PartialEq for Interrupt {
+    /// Whether both watch the same flag.
+    fn eq(&self, other: &Self) -> bool {
+        std::ptr::eq(self.0, other.0)
+    }
 }
 
 impl Default for Settings {
@@ -63,7 +52,8 @@ impl Default for Settings {
         Self {
             tolerance: 1e-12,
             max_sweeps: 100,
-            variant: Variant::Default,
+            time_limit: None,
+            interrupt: None,
         }
     }
 }
@@ -89,18 +79,32 @@ impl Settings {
                 accepted: "max_sweeps >= 1",
             });
         }
-        if let Variant::Sweeps(Sweeps {
-            mixing: Mixing::Relaxed(part),
-            ..
-        }) = self.variant
-            && !(part > 0.0 && part <= 1.0)
-        {
-            return Err(Error::OutOfRange {
-                place: "settings.variant: relaxed".into(),
-                value: part,
-                accepted: "0 < part <= 1",
-            });
-        }
         Ok(())
+    }
+}
+
+/// How long a solve may still go on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Clock {
+    end: Option<Instant>,
+    interrupt: Option<Interrupt>,
+}
+
+impl Clock {
+    pub(super) fn start(settings: &Settings) -> Self {
+        let end = |limit| Instant::now().checked_add(limit);
+        Self {
+            end: settings.time_limit.and_then(end),
+            interrupt: settings.interrupt,
+        }
+    }
+
+    /// Why the solve ends here, if it does.
+    pub(super) fn over(self) -> Option<Shortfall> {
+        if self.interrupt.is_some_and(Interrupt::is_raised) {
+            return Some(Shortfall::Interrupted);
+        }
+        let late = self.end.is_some_and(|end| Instant::now() >= end);
+        late.then_some(Shortfall::TimeLimit)
     }
 }

@@ -3,7 +3,9 @@
 //! With much friction several states can satisfy all laws for the same load. Nothing short of
 //! trying tells how many, and trying proves nothing but what it finds: every state given here is certified.
 
-use super::path::friction::stuck;
+use faer::Col;
+
+use super::condition::times;
 use super::{Outcome, Settings, Status, solve_from};
 use crate::error::Error;
 use crate::problem::ContactProblem;
@@ -117,6 +119,17 @@ fn start(
         }
     }
     start
+}
+
+/// What closes every gap and undoes every slip, pulling where need be; none without a stiffness.
+fn stuck(problem: &ContactProblem) -> Option<Vec<f64>> {
+    let free = problem.free_displacement();
+    let mut back = Col::from_fn(free.len(), |k| -free[k]);
+    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
+        back[n] += gap;
+    }
+    let reaction = times(problem.operator().stiffness()?, &back);
+    Some(reaction.iter().copied().collect())
 }
 
 /// Numbers that look random, by xorshift (Marsaglia, J. Stat. Softw. 8 (2003) no. 14).

@@ -19,7 +19,7 @@ use nalgebra::Vector3;
 
 use super::kinds::{MOST_FACET_NODES, facet_reference, linear_facet};
 use super::quadrature::positions;
-use super::reference::Reference;
+use super::reference::{Family, Reference};
 use super::{Body, Facet, Mesh, Model};
 
 /// Area, normal and nodal shares of a facet; entries past its last node are zero.
@@ -52,6 +52,12 @@ pub(crate) struct FacetPoint {
 #[derive(Clone, Copy)]
 pub(crate) struct FacetReference(&'static Reference);
 
+impl std::fmt::Debug for FacetReference {
+    fn fmt(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str(self.0.name)
+    }
+}
+
 impl FacetReference {
     /// That of a mesh of dimension 2 or 3; none if there is no such facet.
     pub(crate) fn of(dimension: usize, nodes: usize) -> Option<Self> {
@@ -71,6 +77,21 @@ impl FacetReference {
     /// Values `N_i` at the nodes.
     pub(crate) fn shape(self, at: [f64; 3]) -> Vec<f64> {
         self.0.shape(at)
+    }
+
+    /// Derivatives of `N_i` along the axes of the reference facet; those along further axes are zero.
+    pub(crate) fn slopes(self, at: [f64; 3]) -> Vec<[f64; 3]> {
+        self.0.shape_derivatives(at)
+    }
+
+    /// Whether its positions are barycentric, as in a triangle.
+    pub(crate) fn is_simplex(self) -> bool {
+        self.0.family == Family::Simplex
+    }
+
+    /// Position of its centre.
+    pub(crate) fn centre(self) -> [f64; 3] {
+        self.0.centre()
     }
 
     /// Values `φ_j` at the corners.

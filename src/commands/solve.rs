@@ -115,7 +115,7 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     }
     Ok(match solution.status() {
         Status::Certified => ExitCode::SUCCESS,
-        Status::NotConverged | Status::NoEquilibrium => ExitCode::from(1),
+        Status::NotConverged | Status::NoEquilibrium | Status::CouplingFault => ExitCode::from(1),
     })
 }
 

@@ -45,6 +45,34 @@ impl Condensed {
             prescribed.push(body::prescribed(body)?);
         }
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
+        Self::on_surface(bodies, pairs, surface, prescribed, start)
+    }
+
+    /// The same bodies on a contact surface that is found already, and maybe changed since.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new).
+    pub fn on(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        surface: ContactSurface,
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let prescribed = bodies
+            .iter()
+            .map(body::prescribed)
+            .collect::<Result<_, _>>()?;
+        Self::on_surface(bodies, pairs, surface, prescribed, start)
+    }
+
+    fn on_surface(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        surface: ContactSurface,
+        prescribed: Vec<Vec<Option<f64>>>,
+        start: Instant,
+    ) -> Result<Self, Error> {
         dense_bytes(&surface)?;
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
@@ -226,6 +254,7 @@ mod tests {
                 normal,
             }),
             friction: 0.4,
+            rounded: true,
         };
         (body, pair)
     }
@@ -422,6 +451,7 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.0,
+            rounded: true,
         };
         let condensed = Condensed::new(&[square], &[pair]).unwrap();
         assert_eq!(condensed.surface().left_out, [(0, 8)]);
@@ -516,6 +546,7 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.5,
+            rounded: true,
         };
         let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(

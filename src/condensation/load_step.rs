@@ -132,6 +132,7 @@ mod tests {
                 normal: [0.0, 0.0, 1.0],
             }),
             friction: 0.0,
+            rounded: true,
         };
         (body, pair)
     }

@@ -224,6 +224,7 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.5,
+            rounded: true,
         };
         let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair]).unwrap();
         (body, rigid)

@@ -1,9 +1,5 @@
-//! The contacts of a pair of surfaces, one per node of one side that the other covers.
-//!
-//! The side that the pair names first carries the contacts, unless it is much stiffer: its
-//! own compliance would then drown in that of the other side, `G = G₁ + P G₂ Pᵀ`, and with it
-//! all but the patterns of pressure that the other side's mesh can tell apart. Compliance of
-//! the softer side is there for every contact, whatever the meshes.
+//! The contacts of a pair of surfaces, one per node of one side that the other covers;
+//! `carrying_side` says which side.
 //!
 //! Along an axis that supports hold on both sides nothing moves, so a contact has no unknown
 //! there; on a symmetry plane its normal lies in the plane, and its weights are those of the node
@@ -13,18 +9,14 @@ use std::collections::HashSet;
 
 use nalgebra::Vector3;
 
+use super::carrying_side::{carrying, softest};
 use super::facing::Bodies;
 use super::frame::Stance;
-use super::mortar::MortarNode;
-use super::pair::{PairSurface, check_pair_body};
-use super::{ContactNode, ContactPair, OppositeNodes, mortar};
+use super::mortar::{self, Coverage, MortarNode, Surface};
+use super::pair::{Coupling, PairSurface, check_pair_body};
+use super::{ContactNode, ContactPair, OppositeNodes};
 use crate::body::{Body, Facet, Model};
 use crate::error::Error;
-
-/// Ratio of Young's moduli beyond which the softer side carries the contacts: the stiffer one
-/// costs two digits of sixteen there, and from ten times that on, if it is the finer one, also
-/// sweeps by the dozen.
-const MUCH_STIFFER: f64 = 1e2;
 
 /// Weight of the other side's held nodes beyond which it does not move.
 const MOSTLY: f64 = 0.5;
@@ -65,12 +57,28 @@ pub(super) fn between_surfaces(
     let first = side(pair.body, &pair.facets, &format!("{}.facets", pair.place))?;
     let second = side(opposite, facets, &place)?;
     refuse_common_facets(&first, &second, &place)?;
-    let stiffer = softest(scene.bodies, &first) > MUCH_STIFFER * softest(scene.bodies, &second);
-    if stiffer {
-        contacts(scene, pair, &second, &first, true)
-    } else {
-        contacts(scene, pair, &first, &second, false)
+    let surfaces = [
+        surface(scene, pair, &first, &format!("{}.facets", pair.place))?,
+        surface(scene, pair, &second, &place)?,
+    ];
+    let young = [&first, &second].map(|side| softest(&scene.bodies[side.body], &side.facets));
+    let [one, two] = &surfaces;
+    match carrying([one, two], young, &pair.place)? {
+        (coverage, false) => contacts(scene, pair, &coverage, [&first, &second], false),
+        (coverage, true) => contacts(scene, pair, &coverage, [&second, &first], true),
     }
+}
+
+/// The surface of a side, with what its facets stand for.
+fn surface<'a>(
+    scene: &Bodies<'a>,
+    pair: &ContactPair,
+    side: &'a Side,
+    place: &str,
+) -> Result<Surface<'a>, Error> {
+    let bulges = scene.boundaries[side.body].bulges(&side.facets, pair.rounded);
+    let surface = Surface::new(&scene.bodies[side.body].mesh, &side.facets, place)?;
+    Ok(surface.with(bulges))
 }
 
 /// A body of revolution meets only bodies of revolution.
@@ -115,49 +123,42 @@ fn refuse_common_facets(first: &Side, second: &Side, place: &str) -> Result<(), 
     }
 }
 
-/// Least Young's modulus at a surface, in pascal.
-fn softest(bodies: &[Body], side: &Side) -> f64 {
-    let body = &bodies[side.body];
-    let mut on_surface = vec![false; body.mesh.nodes.len()];
-    for &node in side.facets.iter().flat_map(|facet| &facet.nodes) {
-        on_surface[node] = true;
-    }
-    let cells = body.mesh.cells().zip(&body.material_of_cell);
-    let at_surface = cells.filter(|(cell, _)| cell.nodes.iter().any(|node| on_surface[*node]));
-    at_surface
-        .map(|(_, material)| body.materials[*material].young)
-        .fold(f64::INFINITY, f64::min)
-}
-
-/// The contacts at the nodes of `own`, which is the pair's `second` surface or its first.
+/// The contacts on the side whose coverage is given: that of the pair's `second` surface or of its first.
 fn contacts(
     scene: &Bodies<'_>,
     pair: &ContactPair,
-    own: &Side,
-    other: &Side,
+    coverage: &Coverage<'_>,
+    [own, other]: [&Side; 2],
     second: bool,
 ) -> Result<PairSurface, Error> {
     let (body, across) = (&scene.bodies[own.body], &scene.bodies[other.body]);
     let dimension = body.mesh.dimension;
-    let coupled = mortar::average(
-        &body.mesh,
-        &own.facets,
-        &across.mesh,
-        &other.facets,
-        body.model,
-        &pair.place,
-    )?;
+    let mut coupled = mortar::average(coverage, body.model, &pair.place)?;
+    let mut stances = Vec::with_capacity(coupled.nodes.len());
+    for node in &mut coupled.nodes {
+        let still = still_axes(scene, own.body, other.body, node);
+        let normal = across_axes(node.normal, still);
+        node.look_along(
+            normal.unwrap_or(node.normal),
+            still,
+            &body.mesh,
+            &across.mesh,
+        );
+        stances.push(match normal {
+            Some(_) => Stance::new(dimension, node.normal, still),
+            None => Stance::Held,
+        });
+    }
+    coupled.lift();
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
-    for mut node in coupled.nodes {
-        let still = still_axes(scene, own.body, other.body, &node);
-        let Some(normal) = across_axes(node.normal, still) else {
+    for (node, stance) in coupled.nodes.into_iter().zip(stances) {
+        let Stance::Free { frame, kept } = stance else {
             left_out.push(node.node);
             continue;
         };
-        node.look_along(normal, still, &body.mesh, &across.mesh);
-        let Stance::Free { frame, kept } = Stance::new(dimension, normal, still) else {
-            left_out.push(node.node);
-            continue;
+        let position = match node.moved {
+            true => node.centre(&body.mesh).into(),
+            false => body.mesh.nodes[node.node],
         };
         contacts.push(ContactNode {
             body: own.body,
@@ -168,47 +169,50 @@ fn contacts(
                 nodes: node.opposite,
             }),
             pair: 0,
-            position: body.mesh.nodes[node.node],
+            position,
             frame,
             tangents: if pair.friction == 0.0 { 0 } else { kept },
             initial_gap: node.initial_gap,
             area: node.weight * body.model.depth(),
+            bulge: node.bulge,
             second,
             rim: false,
         });
     }
     scene.boundaries[own.body].mark_rims(&mut contacts, &own.facets, Some(&across.mesh));
-    let met = contacts.iter().map(|contact| contact.node);
-    let met: HashSet<usize> = met.chain(left_out.iter().copied()).collect();
-    let covered = |facet: &&Facet| {
-        let corners = facet.corners(dimension);
-        corners.iter().all(|node| met.contains(node))
-    };
+    let [met, met_across] = coverage.met();
+    let (rounded, largest_bulge) = coverage.rounded([&met, &met_across]);
     Ok(PairSurface {
-        body: own.body,
-        facets: own.facets.iter().filter(covered).cloned().collect(),
+        coupling: Coupling {
+            body: own.body,
+            second,
+            rounded,
+            largest_bulge,
+        },
+        facets: met.iter().map(|&facet| own.facets[facet].clone()).collect(),
         contacts,
         left_out,
     })
 }
 
-/// Axes along which supports hold the node and most of what it meets; across the normal of a
-/// quadratic facet any of it, as on a symmetry plane, where means reach inward.
+/// Axes along which supports hold the contact and most of what it meets; at the corner of a quadratic
+/// facet, across its normal any of it, as on a symmetry plane, where means reach inward.
 fn still_axes(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarNode) -> [bool; 3] {
     let dimension = scene.bodies[own].mesh.dimension;
     let held = |body: usize, node: usize, axis: usize| {
         scene.prescribed[body][node * dimension + axis].is_some()
     };
     std::array::from_fn(|axis| {
-        axis < dimension && held(own, node.node, axis) && {
-            let opposite = node.opposite.iter();
-            let mut still = opposite.filter(|(across, _)| held(other, *across, axis));
-            if node.own.len() > 1 && node.normal[axis].abs() < LEANING {
-                return still.next().is_some();
-            }
-            node.own.iter().all(|(near, _)| held(own, *near, axis))
-                && still.map(|(_, weight)| weight).sum::<f64>() > MOSTLY
+        let corner = axis < dimension && held(own, node.node, axis);
+        let mut still = node.met().filter(|(across, _)| held(other, *across, axis));
+        // What has moved along a line has left the plane that holds its corner, but not along a face.
+        let beside = node.own.len() > 1 && (dimension == 3 || !node.moved);
+        if corner && beside && node.normal[axis].abs() < LEANING {
+            return still.next().is_some();
         }
+        (corner || axis < dimension && node.moved)
+            && node.own.iter().all(|(near, _)| held(own, *near, axis))
+            && still.map(|(_, weight)| weight).sum::<f64>() > MOSTLY
     })
 }
 
@@ -250,6 +254,7 @@ mod tests {
                 facets: facets(&lower.mesh, "top"),
             },
             friction: 0.3,
+            rounded: true,
         };
         (vec![upper, lower], pair)
     }

@@ -6,6 +6,9 @@
 //!        ∫ ψ_i φ_j dA = δ_ij w_j   ψ = D M⁻¹ φ on each facet, M = ∫ φ φᵀ dA, D = diag ∫ φ dA
 //! ```
 //!
+//! g₀ is measured from the smooth surface (C18). As `ψ_j` has two signs its mean may be less than g₀ is
+//! anywhere on the facets around the corner: the least of these bounds g_j from below.
+//!
 //! On linear facets a contact moves with its node and sees the distance from there, `B = 1`. On
 //! quadratic ones nodal forces of a uniform pressure vanish or pull at corners, so pressures
 //! stand at the corners alone, `Σ_j (t_j / w_j) ψ_j`, while displacements are quadratic: all
@@ -20,6 +23,8 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 
+use super::lift::lifts;
+use super::rounding::Bulges;
 use crate::body::{Body, Facet, FacetGeometry, FacetPoint};
 use crate::error::Error;
 
@@ -40,18 +45,23 @@ pub(super) struct Footing {
     pub(super) area: f64,
     /// `g_j`, in metre.
     pub(super) gap: f64,
+    /// `∫ ψ_j b dA / w_j` (C18), in metre.
+    pub(super) bulge: f64,
+    /// Least g₀ on the facets around, in metre.
+    least: f64,
 }
 
-/// The footings on facets, in the order in which these name their corners; `gap` is g₀ in metre
-/// at a position, for the contact at a node.
+/// The footings on facets with an area, in the order in which these name their corners; `gap` is g₀ in
+/// metre at a position, for the contact at a node, and `bulges` are those of the facets.
 pub(super) fn footings(
     body: &Body,
     facets: &[(Facet, FacetGeometry)],
+    bulges: &Bulges,
     gap: impl Fn(usize, [f64; 3]) -> Result<f64, Error>,
 ) -> Result<Vec<Footing>, Error> {
     let dimension = body.mesh.dimension;
     let mut gathered = Gathered::default();
-    for (facet, geometry) in facets {
+    for (index, (facet, geometry)) in facets.iter().enumerate() {
         if !facet.is_quadratic(dimension) {
             for (&node, &weight) in facet.nodes.iter().zip(&geometry.weights) {
                 let here = gap(node, body.mesh.nodes[node])?;
@@ -60,21 +70,36 @@ pub(super) fn footings(
             continue;
         }
         let points = body.mesh.facet_points(facet, body.model);
-        let dual = duals(&points, facet.corners(dimension).len());
+        let corners = facet.corners(dimension);
+        let dual = duals(&points, corners.len());
         for point in &points {
             let area = point.vector.norm();
             let psi = &dual * DVector::from_row_slice(&point.hats);
-            for (&corner, psi) in facet.corners(dimension).iter().zip(&psi) {
-                let here = gap(corner, point.position.into())?;
+            let mut hats = [0.0; 4];
+            hats[..corners.len()].copy_from_slice(&point.hats);
+            let bulge = bulges.height(index, &hats);
+            for (&corner, psi) in corners.iter().zip(&psi) {
+                let here = gap(corner, point.position.into())? - bulges.taken(bulge);
                 let footing = gathered.at(corner);
+                footing.bulge += psi * area * bulge;
+                footing.least = footing.least.min(here);
                 for (&node, shape) in facet.nodes.iter().zip(&point.shape) {
                     footing.add(node, psi * shape * area, here);
                 }
             }
         }
+        let places = corners.iter().map(|corner| gathered.place_of_node[corner]);
+        let patch = places.collect();
+        gathered.patches.push(patch);
+        for &corner in corners {
+            for &other in corners {
+                let there = gap(corner, body.mesh.nodes[other])?;
+                let footing = gathered.at(corner);
+                footing.least = footing.least.min(there);
+            }
+        }
     }
-    let found = gathered.footings.into_iter().map(Footing::close);
-    Ok(found.collect())
+    Ok(gathered.close())
 }
 
 /// `D M⁻¹` of a facet (C16); one where it has no area, as on an axis.
@@ -98,9 +123,28 @@ fn duals(points: &[FacetPoint], corners: usize) -> DMatrix<f64> {
 struct Gathered {
     footings: Vec<Footing>,
     place_of_node: HashMap<usize, usize>,
+    /// Footings that share a quadratic facet.
+    patches: Vec<Vec<usize>>,
 }
 
 impl Gathered {
+    /// The footings with an area, their gaps bounded from below; on linear facets gaps are no means.
+    fn close(self) -> Vec<Footing> {
+        let mut closed: Vec<Footing> = self.footings.into_iter().map(Footing::close).collect();
+        let bounds = closed
+            .iter()
+            .map(|footing| match footing.least.is_finite() {
+                true => (footing.gap, footing.least),
+                false => (footing.gap, footing.gap),
+            });
+        let lifts = lifts(bounds, &self.patches);
+        for (footing, lift) in closed.iter_mut().zip(lifts) {
+            footing.gap += lift;
+        }
+        closed.retain(|footing| footing.area > 0.0);
+        closed
+    }
+
     fn at(&mut self, node: usize) -> &mut Footing {
         let place = *(self.place_of_node.entry(node)).or_insert(self.footings.len());
         if place == self.footings.len() {
@@ -109,6 +153,8 @@ impl Gathered {
                 own: Vec::new(),
                 area: 0.0,
                 gap: 0.0,
+                bulge: 0.0,
+                least: f64::INFINITY,
             });
         }
         &mut self.footings[place]
@@ -133,6 +179,7 @@ impl Footing {
         for (_, weight) in &mut self.own {
             *weight /= area;
         }
+        self.bulge /= area;
         self.gap /= area;
         self
     }
@@ -168,7 +215,8 @@ mod tests {
                 (facet, geometry)
             })
             .collect();
-        footings(body, &facets, |_, position| Ok(gap(position))).unwrap()
+        let bulges = Bulges::none(facets.len());
+        footings(body, &facets, &bulges, |_, position| Ok(gap(position))).unwrap()
     }
 
     #[test]

@@ -9,9 +9,11 @@
 //! surface may grow over sides and back without changing the problem.
 
 use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
+use super::rounding::{Bulges, Turns};
 use super::{ContactNode, ContactPair, Obstacle};
 use crate::body::{Body, Facet, FacetGeometry, Mesh};
 use crate::error::Error;
@@ -30,6 +32,7 @@ pub(super) struct Boundary<'a> {
     body: &'a Body,
     facets: Vec<Facet>,
     index_of: HashMap<Vec<usize>, usize>,
+    turns: OnceLock<Turns>,
 }
 
 /// Bodies of a scene with what is known of each.
@@ -49,7 +52,15 @@ impl<'a> Boundary<'a> {
             body,
             facets,
             index_of,
+            turns: OnceLock::new(),
         }
+    }
+
+    /// How far the smooth surface stands off facets of the boundary; it counts in gaps or not.
+    pub(super) fn bulges(&self, facets: &[Facet], rounded: bool) -> Bulges {
+        let mesh = &self.body.mesh;
+        let turns = self.turns.get_or_init(|| Turns::new(mesh, &self.facets));
+        turns.bulges(mesh, facets, rounded)
     }
 
     /// Facets of the boundary in outward order, each once.

@@ -10,22 +10,29 @@
 //! | normal and tangents of a contact | `frame` |
 //! | facets that face the other side | `facing` |
 //! | corners and the nodes around them (C16) | `corner_weights` |
+//! | what straight facets leave of a round surface (C18) | `rounding`: `turning_edges` |
+//! | gaps that are nowhere less than the least distance (C20) | `lift` |
 //! | against a rigid obstacle | `on_obstacle`: `obstacle` |
-//! | against another surface, segment to segment (C7)–(C10) | `between_bodies`: `mortar` |
+//! | against another surface, segment to segment (C7)–(C10) | `between_bodies`: `carrying_side`, `mortar` |
 
 mod between_bodies;
+mod carrying_side;
 mod corner_weights;
 mod facing;
 pub(crate) mod frame;
+mod lift;
 pub(crate) mod mortar;
 mod node;
 mod obstacle;
 mod on_obstacle;
 mod pair;
+mod rounding;
 mod surface;
+mod turn;
+mod turning_edges;
 
 pub use node::{ContactNode, OppositeNodes};
 pub(crate) use obstacle::Closest;
 pub use obstacle::Obstacle;
-pub use pair::{ContactPair, Opposite};
+pub use pair::{ContactPair, Coupling, Opposite};
 pub use surface::ContactSurface;

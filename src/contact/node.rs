@@ -8,7 +8,8 @@ pub struct ContactNode {
     /// Node of its mesh where it stands.
     pub node: usize,
     /// Nodes of the body that it moves with and their weights, which add up to one: its own
-    /// node alone on linear facets, those around it on quadratic ones.
+    /// node alone on linear facets, those around it on quadratic ones; on a facet that the
+    /// other side covers in part, those between which the cover ends.
     pub own: Vec<(usize, f64)>,
     /// The other side; none if that is a rigid obstacle.
     pub opposite: Option<OppositeNodes>,
@@ -25,7 +26,10 @@ pub struct ContactNode {
     pub initial_gap: f64,
     /// Tributary area, in m² (plane bodies: for their depth, axisymmetric ones: of the ring).
     pub area: f64,
-    /// It stands on the second surface of its pair, which is much the softer one.
+    /// Mean distance by which the smooth surfaces of both sides stand off their facets towards each
+    /// other, in metre: what straight facets add to a gap. Taken off if the pair is rounded.
+    pub bulge: f64,
+    /// It stands on the second surface of its pair, which carries the contacts.
     pub second: bool,
     /// The body's surface goes on beyond the assumed contact surface here.
     pub rim: bool,

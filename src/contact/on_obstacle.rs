@@ -6,9 +6,9 @@
 use super::corner_weights::{Footing, footings, held_axes};
 use super::facing::Bodies;
 use super::frame::Stance;
-use super::pair::PairSurface;
+use super::pair::{Coupling, PairSurface};
 use super::{Closest, ContactNode, ContactPair, Obstacle};
-use crate::body::{Axis, Body};
+use crate::body::{Axis, Body, Facet};
 use crate::error::Error;
 
 /// The contacts of a pair with a rigid obstacle.
@@ -28,7 +28,13 @@ pub(super) fn on_obstacle(
     let facing = boundary.facing(pair, obstacle)?;
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
     let gap = |node, position| Ok(view.closest(node, position)?.distance);
-    for footing in footings(body, &facing, gap)? {
+    let facets: Vec<Facet> = facing.iter().map(|(facet, _)| facet.clone()).collect();
+    let bulges = boundary.bulges(&facets, pair.rounded);
+    let every: Vec<usize> = (0..facets.len())
+        .filter(|&f| facets[f].is_quadratic(body.mesh.dimension))
+        .collect();
+    let (rounded, largest_bulge) = bulges.rounded(&every);
+    for footing in footings(body, &facing, &bulges, gap)? {
         let node = footing.node;
         match view.contact(footing, &scene.prescribed[pair.body])? {
             Some(contact) => contacts.push(contact),
@@ -37,9 +43,14 @@ pub(super) fn on_obstacle(
     }
     boundary.mark_rims(&mut contacts, &pair.facets, None);
     Ok(PairSurface {
-        body: pair.body,
+        coupling: Coupling {
+            body: pair.body,
+            second: false,
+            rounded,
+            largest_bulge,
+        },
         contacts,
-        facets: facing.into_iter().map(|(facet, _)| facet).collect(),
+        facets,
         left_out,
     })
 }
@@ -140,6 +151,7 @@ impl View<'_> {
             tangents: if pair.friction == 0.0 { 0 } else { kept },
             initial_gap,
             area: footing.area * self.body.model.depth(),
+            bulge: footing.bulge,
             second: false,
             rim: false,
         }))
@@ -177,6 +189,7 @@ mod tests {
             body: 0,
             opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
             friction: 0.3,
+            rounded: true,
         }
     }
 

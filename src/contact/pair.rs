@@ -10,9 +10,10 @@ use crate::error::{Error, check_finite};
 pub struct ContactPair {
     /// Where the scene says so, for messages, such as `contacts[0]`.
     pub place: String,
-    /// Index of the body that the pair names first. Its nodes carry the contacts, unless it
-    /// is more than a hundred times as stiff at the surface as the body opposite: then
-    /// those of that one do. On flat faces either choice is exact for a uniform pressure;
+    /// Index of the body that the pair names first. Of the two sides that one carries the
+    /// contacts that has fewer facets on which the other one ends, and if they are equal in that, the
+    /// first one; but a side that is more than a hundred times as stiff as the other never does.
+    /// On flat faces either choice is exact for a uniform pressure;
     /// on curved ones the coarser side averages over the other's facets, while the finer
     /// one follows them in its pressures.
     pub body: usize,
@@ -22,6 +23,9 @@ pub struct ContactPair {
     pub opposite: Opposite,
     /// Coefficient of friction, `μ ≥ 0`.
     pub friction: f64,
+    /// Gaps are measured between the smooth surfaces that straight facets stand for, where
+    /// these turn; else between the facets.
+    pub rounded: bool,
 }
 
 /// The other side of a contact pair.
@@ -55,10 +59,22 @@ impl ContactPair {
     }
 }
 
+/// How the two sides of a pair are coupled.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Coupling {
+    /// Index of the body whose facets carry the contacts.
+    pub body: usize,
+    /// They are those of the pair's second surface.
+    pub second: bool,
+    /// Number of facets, of both sides, that are rounded when gaps are measured.
+    pub rounded: usize,
+    /// Largest distance by which the smooth surface stands off one of them, in metre.
+    pub largest_bulge: f64,
+}
+
 /// What one pair adds to the contact surface.
 pub(super) struct PairSurface {
-    /// The body whose nodes carry the contacts.
-    pub(super) body: usize,
+    pub(super) coupling: Coupling,
     pub(super) contacts: Vec<ContactNode>,
     pub(super) facets: Vec<Facet>,
     pub(super) left_out: Vec<usize>,

@@ -12,7 +12,7 @@ use super::between_bodies::between_surfaces;
 use super::facing::{Bodies, Boundary};
 use super::node::ContactNode;
 use super::on_obstacle::on_obstacle;
-use super::pair::{ContactPair, Opposite, check_pair_body};
+use super::pair::{ContactPair, Coupling, Opposite, check_pair_body};
 use crate::body::{Body, Facet};
 use crate::error::{Error, check_length};
 
@@ -31,6 +31,8 @@ pub struct ContactSurface {
     /// Bodies and nodes of the surface that are no contacts because a support holds
     /// their normal.
     pub left_out: Vec<(usize, usize)>,
+    /// How each pair is coupled.
+    pub couplings: Vec<Coupling>,
 }
 
 impl ContactSurface {
@@ -77,13 +79,13 @@ impl ContactSurface {
             for contact in &mut found.contacts {
                 contact.pair = index;
             }
-            let of_body = |facet| (found.body, facet);
+            let body = found.coupling.body;
+            let of_body = |facet| (body, facet);
+            surface.couplings.push(found.coupling);
             surface.nodes.append(&mut found.contacts);
             surface.facets.extend(found.facets.into_iter().map(of_body));
             let left_out = found.left_out.into_iter();
-            surface
-                .left_out
-                .extend(left_out.map(|node| (found.body, node)));
+            surface.left_out.extend(left_out.map(|node| (body, node)));
         }
         if surface.nodes.is_empty() {
             return Err(Error::EmptyContactSurface {

@@ -174,6 +174,7 @@ mod tests {
                 tangents: 0,
                 initial_gap: 0.5,
                 area: 1.0,
+                bulge: 0.0,
                 second: false,
                 rim: false,
             };

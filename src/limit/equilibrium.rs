@@ -115,7 +115,7 @@ impl RigidContacts {
     }
 
     /// A motion brought to unit speed of the contacts, or unit amplitude if none moves, and the load's power on it.
-    pub(super) fn at_unit_speed(&self, mut motion: Vec<f64>, load: &[f64]) -> (Vec<f64>, f64) {
+    pub(crate) fn at_unit_speed(&self, mut motion: Vec<f64>, load: &[f64]) -> (Vec<f64>, f64) {
         let amplitude = self.basis.largest_amplitude(&motion);
         let mut speed = self.speed(&motion);
         if speed <= IDLE * amplitude {

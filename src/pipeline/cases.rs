@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::Setup;
+use super::{Acting, Setup};
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
 use crate::body::Body;
@@ -296,13 +296,17 @@ impl Stated {
             .map(|contact| friction[contact.pair])
             .collect();
         let parted = contacts.iter().zip(&self.gaps);
-        let gaps = parted
+        let parted_gaps = parted
             .map(|(contact, gap)| gap + gaps[contact.pair])
             .collect();
-        setup.condensed.replace(friction, gaps)?;
+        setup.condensed.replace(friction, parted_gaps)?;
         let slip = vec![0.0; setup.condensed.problem().unknowns()];
         let condensed = &mut setup.condensed;
         condensed.act(&self.under, &factors, &obstacles, &slip)?;
+        setup.acting = Acting {
+            obstacles,
+            openings: gaps,
+        };
         Ok(setup)
     }
 }

@@ -6,6 +6,7 @@ mod check;
 mod half_space;
 mod halving;
 mod limit;
+mod measured;
 mod steps;
 mod substep;
 
@@ -13,12 +14,12 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use crate::alternation::{Earlier, Outcome, Settings, Shortfall, Status};
+use crate::alternation::{Earlier, Outcome, Settings, Status};
 use crate::body::{Body, Extremes};
 use crate::condensation::Condensed;
 use crate::contact::{ContactPair, Opposite};
 use crate::error::Error;
-use crate::kkt::{Balance, Worst};
+use crate::kkt::{PairFit, SceneGeometry};
 use crate::report::vtu::BodyFields;
 use crate::report::{
     Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
@@ -31,6 +32,7 @@ pub use check::{Checked, check};
 pub use half_space::solve_half_space;
 pub(crate) use halving::Halving;
 pub use limit::limit;
+pub use measured::{Acting, Measured};
 pub use steps::{SolvedStep, solve_steps};
 
 /// Solves a scene; one with load steps to its end, or to the first state that is not certified.
@@ -53,6 +55,8 @@ struct Setup {
     settings: Settings,
     notes: Vec<String>,
     condensed: Condensed,
+    geometry: Arc<SceneGeometry>,
+    acting: Acting,
 }
 
 impl Setup {
@@ -65,6 +69,7 @@ impl Setup {
             ..
         } = mechanics;
         let condensed = Condensed::new(&bodies, &pairs)?;
+        let geometry = SceneGeometry::new(&bodies, &pairs, condensed.surface())?;
         Ok(Self {
             title: scene.title.clone(),
             units: scene.units.clone(),
@@ -73,6 +78,8 @@ impl Setup {
             settings,
             notes,
             condensed,
+            geometry: Arc::new(geometry),
+            acting: Acting::default(),
         })
     }
 
@@ -87,37 +94,27 @@ impl Setup {
         Ok(solution)
     }
 
-    /// Measures recovered bodies; contacts of a body that is not in equilibrium have no certificate.
+    /// Measures recovered bodies; a state that they are not in has no certificate.
     fn measure(
         self,
         mut outcome: Outcome,
         displacements: Vec<Vec<f64>>,
     ) -> Result<Solution, Error> {
         let start = Instant::now();
-        let condensed = &self.condensed;
-        let states = self.body_states(&outcome.reaction, &displacements);
-        let balances: Vec<Balance> = states.iter().map(kkt::balance).collect::<Result<_, _>>()?;
-        let out = balances.iter().position(|balance| !balance.holds());
-        if let (Some(body), Status::Certified) = (out, outcome.status) {
-            let part = balances[body].equilibrium.scaled;
-            outcome.status = Status::NotConverged;
-            outcome.shortfall = Some(Shortfall::OutOfBalance { body, part });
-        }
-        let problem = condensed.problem();
-        let departure = kkt::surface_departure(
+        let measured = Measured::new(
             &self.bodies,
-            &displacements,
-            condensed.surface(),
-            problem,
-            &problem.total_displacement(&outcome.verdict.displacement),
+            &self.condensed,
+            &self.geometry,
+            &self.acting,
+            (&outcome, &displacements),
         )?;
+        (outcome.status, outcome.shortfall) = measured.status(&outcome);
         let recovery_seconds = start.elapsed().as_secs_f64();
         Ok(Solution {
             setup: self,
             outcome,
             displacements,
-            balances,
-            departure,
+            measured,
             recovery_seconds,
             step: None,
             extremes: OnceLock::new(),
@@ -139,8 +136,7 @@ pub struct Solution {
     setup: Setup,
     outcome: Outcome,
     displacements: Vec<Vec<f64>>,
-    balances: Vec<Balance>,
-    departure: Worst,
+    measured: Measured,
     recovery_seconds: f64,
     step: Option<SolvedStep>,
     /// Of every body, once somebody asks.
@@ -210,8 +206,14 @@ impl Solution {
 
     /// Equilibrium of each whole body, measured by the judge.
     #[must_use]
-    pub fn balances(&self) -> &[Balance] {
-        &self.balances
+    pub fn balances(&self) -> &[kkt::Balance] {
+        &self.measured.balances
+    }
+
+    /// Whether the sides of each contact pair are in the state that is reported, measured by the judge.
+    #[must_use]
+    pub fn fits(&self) -> &[PairFit] {
+        &self.measured.fits
     }
 
     /// The answer under stable names.
@@ -242,10 +244,11 @@ impl Solution {
             outcome: &self.outcome,
             displacements: &self.displacements,
             motions: &motions,
-            balances: &self.balances,
+            balances: &self.measured.balances,
             extremes: self.extremes(),
             support_forces: &support_forces,
-            departure: self.departure,
+            departure: self.measured.departure,
+            fits: &self.measured.fits,
             stages: &StageWork {
                 factorisations: work.factorisations,
                 assembly: work.assembly_seconds,

@@ -63,6 +63,7 @@ impl<'a> Course<'a> {
         let (factors, obstacles) = (self.history.factors(at), self.history.obstacles(at));
         let condensed = &mut self.setup.condensed;
         condensed.act(&self.under, &factors, &obstacles, slip)?;
+        self.setup.acting.obstacles.clone_from(&obstacles);
         Ok(obstacles)
     }
 

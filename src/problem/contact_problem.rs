@@ -177,16 +177,6 @@ impl ContactProblem {
         })
     }
 
-    /// The same problem, whose operator forms its stiffness anew when it is asked: what a solve
-    /// takes is then measured in full.
-    #[must_use]
-    pub fn unasked(&self) -> Self {
-        Self {
-            operator: Arc::new(self.operator.unasked()),
-            ..self.clone()
-        }
-    }
-
     /// The same problem between bodies that their supports do not hold (C3): the free
     /// displacement and the operator are those of bodies grounded in any way.
     ///

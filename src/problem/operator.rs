@@ -134,14 +134,6 @@ impl Operator {
         }
     }
 
-    /// The same operator, whose stiffness nobody has asked for yet.
-    pub(super) fn unasked(&self) -> Self {
-        Self {
-            stiffness: OnceLock::new(),
-            ..self.clone()
-        }
-    }
-
     /// Number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {

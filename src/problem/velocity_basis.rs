@@ -63,6 +63,11 @@ impl VelocityBasis {
         self.moving.ncols()
     }
 
+    /// Q.
+    pub(crate) fn velocities(&self) -> MatRef<'_, f64> {
+        self.velocities.as_ref()
+    }
+
     /// α of `β`.
     pub(crate) fn amplitudes(&self, beta: &[f64]) -> Vec<f64> {
         product(self.moving.as_ref(), beta)

@@ -108,6 +108,7 @@ impl HardCase {
             ReportedStatus::Certified => "certified",
             ReportedStatus::NotConverged => "not converged",
             ReportedStatus::NoEquilibrium => "no equilibrium",
+            ReportedStatus::CouplingFault => "coupling fault",
         };
         let verdict = match self.missed.is_empty() {
             true => "pass".to_owned(),

@@ -9,7 +9,7 @@
 //!
 //! | key | content |
 //! |---|---|
-//! | `status` | `certified`, `not_converged` or `no_equilibrium` |
+//! | `status` | `certified`, `not_converged`, `no_equilibrium`, or `coupling_fault`: the contact problem is solved, but forces, distances, weights or areas of the bodies themselves are off by more than rounding and mesh explain |
 //! | `reason`, `advice` | with `not_converged`: sweep limit, stall, cone solver, ill-conditioned, a body out of balance or round-off, and what to do |
 //! | `failure` | with `no_equilibrium`: which body moves how, what slides or opens, the force that is missing |
 //! | `certificate` | natural-map residual, every law's worst violation and where, bipotential gap; per body the balance of forces and moments |
@@ -29,6 +29,7 @@ mod failure;
 #[cfg(feature = "cli")]
 mod figure;
 mod file;
+mod fit;
 mod half_space;
 #[cfg(feature = "cli")]
 mod hard;
@@ -65,6 +66,7 @@ pub use failure::ReportedFailure;
 #[cfg(feature = "cli")]
 pub use figure::plot;
 pub use file::replace_file;
+pub use fit::{ReportedMeasure, ReportedPairFit};
 pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy};
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
@@ -149,6 +151,8 @@ pub enum ReportedStatus {
     NotConverged,
     /// No admissible contact forces hold the bodies.
     NoEquilibrium,
+    /// The bodies are not in the state that the contact problem says.
+    CouplingFault,
 }
 
 impl ReportedStatus {
@@ -159,6 +163,7 @@ impl ReportedStatus {
             Self::Certified => "certified",
             Self::NotConverged => "not_converged",
             Self::NoEquilibrium => "no_equilibrium",
+            Self::CouplingFault => "coupling_fault",
         }
     }
 }
@@ -221,6 +226,8 @@ pub struct ReportParts<'a> {
     pub support_forces: &'a [Vec<[f64; 3]>],
     /// How far that displacement is from the condensed problem's at the contacts.
     pub departure: kkt::Worst,
+    /// Whether the sides of each pair are in that state; empty where nobody looked.
+    pub fits: &'a [kkt::PairFit],
     /// What the stages around the outer loop took.
     pub stages: &'a StageWork,
     /// Relative displacement of every contact, in global axes, from which its slip counts, in
@@ -296,6 +303,7 @@ impl From<alternation::Status> for ReportedStatus {
             alternation::Status::Certified => Self::Certified,
             alternation::Status::NotConverged => Self::NotConverged,
             alternation::Status::NoEquilibrium => Self::NoEquilibrium,
+            alternation::Status::CouplingFault => Self::CouplingFault,
         }
     }
 }

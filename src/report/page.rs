@@ -191,7 +191,11 @@ impl Study {
         }
         said.extend(self.duels());
         for name in Self::loops(self.runs.iter()) {
-            for status in [ReportedStatus::NotConverged, ReportedStatus::NoEquilibrium] {
+            for status in [
+                ReportedStatus::NotConverged,
+                ReportedStatus::NoEquilibrium,
+                ReportedStatus::CouplingFault,
+            ] {
                 let lost = self
                     .of_part(Part::Friction)
                     .filter(|run| run.name == name && run.status == status);
@@ -302,6 +306,7 @@ fn words(status: ReportedStatus) -> &'static str {
         ReportedStatus::Certified => "certified",
         ReportedStatus::NotConverged => "gave up",
         ReportedStatus::NoEquilibrium => "no equilibrium",
+        ReportedStatus::CouplingFault => "coupling fault",
     }
 }
 

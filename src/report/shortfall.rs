@@ -2,10 +2,9 @@
 
 use serde::Serialize;
 
-use std::collections::HashSet;
-
 use super::ReportParts;
 use super::digits::size;
+use super::fit::fault;
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
 
@@ -29,14 +28,20 @@ pub enum Reason {
     SweepLimit,
     /// Many sweeps led to no better state.
     Stalled,
+    /// The time that the settings allow ran out.
+    TimeLimit,
+    /// The solve was interrupted.
+    Interrupted,
     /// The cone solver gave up.
     ConeSolver,
-    /// The bodies hardly tell the contacts apart.
+    /// Nothing but round-off gives way to the contacts.
     IllConditioned,
     /// A body as a whole is not in equilibrium.
     OutOfBalance,
     /// The tolerance asks for more digits than the problem has.
     RoundOff,
+    /// The bodies are not in the state that the contact problem says.
+    CouplingFault,
 }
 
 impl Reason {
@@ -46,12 +51,17 @@ impl Reason {
             Self::NoEquilibrium => "nothing holds the bodies",
             Self::SweepLimit => "sweeps ran out (max_sweeps)",
             Self::Stalled => "many sweeps led to no better state",
+            Self::TimeLimit => "time ran out (time_limit)",
+            Self::Interrupted => "interrupted",
             Self::ConeSolver => "the cone solver gave up",
-            Self::IllConditioned => "ill-conditioned: the bodies hardly tell the contacts apart",
+            Self::IllConditioned => {
+                "ill-conditioned: nothing but round-off gives way to the contacts"
+            }
             Self::OutOfBalance => {
                 "a body as a whole is not in equilibrium: its cells leave no digits"
             }
             Self::RoundOff => "what is left is round-off",
+            Self::CouplingFault => "the bodies are not in the state that the contact problem says",
         }
     }
 }
@@ -63,6 +73,10 @@ impl ReportedShortfall {
         match outcome.status {
             Status::Certified => None,
             Status::NotConverged => Some(Self::new(outcome.shortfall?, parts)),
+            Status::CouplingFault => Some(Self {
+                reason: Reason::CouplingFault,
+                advice: fault(parts),
+            }),
             Status::NoEquilibrium => Some(Self {
                 reason: Reason::NoEquilibrium,
                 advice: held(outcome),
@@ -100,20 +114,6 @@ fn stalled(sweeps: usize, parts: &ReportParts<'_>) -> String {
     format!("{sweeps} sweeps without a better state: {cause}")
 }
 
-/// What to look for where the compliance is nearly singular: contacts that stand twice only where some do.
-fn ill_conditioned(condition: f64, parts: &ReportParts<'_>) -> String {
-    let mut met = HashSet::new();
-    let mut nodes = parts.surface.nodes.iter();
-    let look_for = match nodes.all(|contact| met.insert((contact.body, contact.node))) {
-        true => "contacts much closer together than the cells of the other side",
-        false => "contacts that stand twice",
-    };
-    format!(
-        "condition {} of the compliance: look for {look_for}, and for supports that hardly hold a body",
-        size(condition)
-    )
-}
-
 impl ReportedShortfall {
     fn new(shortfall: alternation::Shortfall, parts: &ReportParts<'_>) -> Self {
         let (reason, advice) = match shortfall {
@@ -122,15 +122,28 @@ impl ReportedShortfall {
                 "raise settings.max_sweeps, or leave it out".to_owned(),
             ),
             alternation::Shortfall::Stalled { sweeps } => (Reason::Stalled, stalled(sweeps, parts)),
+            alternation::Shortfall::TimeLimit => (
+                Reason::TimeLimit,
+                "raise settings.time_limit, or leave it out".to_owned(),
+            ),
+            alternation::Shortfall::Interrupted => (
+                Reason::Interrupted,
+                "the state is the best up to there: let it run on".to_owned(),
+            ),
             alternation::Shortfall::ConeSolver => (
                 Reason::ConeSolver,
                 "numbers of very different size in one scene: look for a misplaced unit among \
                  stiffnesses, loads and gaps"
                     .to_owned(),
             ),
-            alternation::Shortfall::IllConditioned { condition } => {
-                (Reason::IllConditioned, ill_conditioned(condition, parts))
-            }
+            alternation::Shortfall::IllConditioned { excess } => (
+                Reason::IllConditioned,
+                format!(
+                    "reactions grow to {} times what acts and change nothing: look for an overlap that \
+                     nothing gives way to, as between rigid parts or at contacts that face each other",
+                    size(excess)
+                ),
+            ),
             alternation::Shortfall::OutOfBalance { body, part } => (
                 Reason::OutOfBalance,
                 format!(

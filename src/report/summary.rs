@@ -41,6 +41,9 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         ReportedStatus::NoEquilibrium => {
             "NO EQUILIBRIUM: no admissible contact forces hold the bodies"
         }
+        ReportedStatus::CouplingFault => {
+            "COUPLING FAULT: the bodies are not in the state reported below"
+        }
     };
     let extent = &report.size;
     if !report.title.is_empty() {

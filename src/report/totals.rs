@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::ReportParts;
 use super::certificate::{ReportedDefect, ReportedResultant, in_dimension};
 use super::contacts::ContactForce;
+use super::fit::ReportedPairFit;
 use crate::contact::ContactNode;
 use crate::kkt;
 use crate::kkt::ContactStatus;
@@ -49,6 +50,9 @@ pub struct PairTotals {
     pub totals: Totals,
     /// What the opposite body receives; `null` for a rigid obstacle.
     pub exchange: Option<ReportedExchange>,
+    /// Whether its sides are in the state that is reported, by meshes and displacements.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fit: Option<ReportedPairFit>,
 }
 
 /// What the opposite body of a pair receives, and what is left of action and reaction; see
@@ -93,11 +97,14 @@ impl Totals {
             of_pairs[contact.pair].add(contact, centre, force, status);
         }
         let dimension = parts.dimension();
-        let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges);
-        let pairs = pairs.map(|((pair, sums), exchange)| PairTotals {
+        let fits = parts.fits.iter().map(|fit| Some(fit.into()));
+        let fits = fits.chain(std::iter::repeat(None));
+        let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges).zip(fits);
+        let pairs = pairs.map(|(((pair, sums), exchange), fit)| PairTotals {
             place: pair.place.clone(),
             totals: sums.totals(dimension, Vec::new()),
             exchange: ReportedExchange::new(exchange, dimension),
+            fit,
         });
         all.totals(dimension, pairs.collect())
     }

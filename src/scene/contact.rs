@@ -13,8 +13,9 @@ use crate::error::Error;
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a contact")]
 pub struct SceneContact {
-    /// Group of surface facets; it need only contain the true contact. Its nodes carry the
-    /// contacts, unless it is more than a hundred times as stiff as the other surface.
+    /// Group of surface facets; it need only contain the true contact. Of two
+    /// surfaces the one carries the contacts that has fewer facets on which the other one ends, this one if
+    /// they are equal in that; but never one that is more than a hundred times as stiff.
     pub group: String,
     /// Name of the body; may be left out while there is only one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -28,6 +29,9 @@ pub struct SceneContact {
     /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
     #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
     pub friction: f64,
+    /// Gaps are measured between the smooth surfaces that straight facets stand for, as the turns
+    /// between these say; `false`: between the facets. Left out, they are rounded.
+    pub rounded: Option<bool>,
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
@@ -151,6 +155,7 @@ impl SceneContact {
             facets: selection::facets(mesh, &format!("{place}.group"), &self.group)?,
             opposite,
             friction: self.friction,
+            rounded: self.rounded.unwrap_or(true),
         })
     }
 }

@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use crate::alternation::{Settings, Variant};
+use crate::alternation::Settings;
 use crate::body::Body;
 use crate::contact::ContactPair;
 use crate::error::Error;
@@ -106,9 +106,6 @@ pub struct SceneSettings {
     #[cfg_attr(feature = "cli", schemars(range(min = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_sweeps: Option<usize>,
-    /// Which outer loop runs; for study, from code only.
-    #[serde(skip)]
-    pub variant: Variant,
 }
 
 /// A scene in the terms of mechanics: groups resolved, facets outward, values checked.
@@ -332,7 +329,7 @@ impl SceneSettings {
         let settings = Settings {
             tolerance: self.tolerance.unwrap_or(default.tolerance),
             max_sweeps: self.max_sweeps.unwrap_or(default.max_sweeps),
-            variant: self.variant,
+            ..default
         };
         settings.validate()?;
         Ok(settings)
@@ -465,6 +462,7 @@ mod tests {
                 }),
                 against: None,
                 friction: 0.0,
+                rounded: None,
             }],
             ..Scene::default()
         };

@@ -5,31 +5,31 @@ use std::time::Instant;
 
 use super::ladder::SHORT;
 use super::plan::Plan;
-use crate::alternation;
-use crate::alternation::{Mixing, Outcome, Settings, Sweeps, Variant};
+use super::{Mixing, Sweeps, Variant};
+use crate::alternation::{self, Outcome, Settings};
 use crate::error::Error;
 use crate::problem::ContactProblem;
 use crate::report::{Part, StudiedRun};
 
 /// Loops by name: the default first, the baseline last.
-const LOOPS: [(&str, Variant); 9] = [
-    ("default", Variant::Default),
-    ("plain sweeps", Variant::PLAIN),
+const LOOPS: [(&str, Option<Variant>); 9] = [
+    ("default", None),
+    ("plain sweeps", Some(Variant::PLAIN)),
     ("plain, inexact", sweeps(Mixing::None, false, false)),
     ("relaxed by 1/2", sweeps(Mixing::Relaxed(0.5), true, false)),
     ("Anderson", sweeps(Mixing::Anderson, true, false)),
     ("Anderson, inexact", sweeps(Mixing::Anderson, false, false)),
     ("plain, inexact, finish", sweeps(Mixing::None, false, true)),
-    ("full-cone fixed point", Variant::FullCone),
-    ("NSGS", Variant::Nsgs),
+    ("full-cone fixed point", Some(Variant::FullCone)),
+    ("NSGS", Some(Variant::Nsgs)),
 ];
 
-const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Variant {
-    Variant::Sweeps(Sweeps {
+const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Option<Variant> {
+    Some(Variant::Sweeps(Sweeps {
         mixing,
         exact,
         finish,
-    })
+    }))
 }
 
 /// Multiplications that the passes of one Gauss–Seidel solve may take: about ten seconds.
@@ -53,7 +53,8 @@ pub(super) struct LoopRun<'a> {
     mesh: usize,
     reference: Rc<Reference>,
     name: &'static str,
-    variant: Variant,
+    /// None is the default loop.
+    variant: Option<Variant>,
     tolerance: f64,
 }
 
@@ -107,14 +108,14 @@ impl<'a> Set<'a> {
     /// The loops on one problem; those for study do not know bodies that float.
     fn runs(
         &self,
-        loops: &[(&'static str, Variant)],
+        loops: &[(&'static str, Option<Variant>)],
         reference: &Rc<Reference>,
         tolerance: f64,
     ) -> Vec<LoopRun<'a>> {
         let floats = reference.problem.floating().is_some();
-        let known = |variant| !floats || variant == Variant::Default;
+        let known = |variant| !floats || Option::is_none(&variant);
         let loops = loops.iter().filter(|(_, variant)| known(*variant));
-        let run = |&(name, variant): &(&'static str, Variant)| LoopRun {
+        let run = |&(name, variant): &(&'static str, Option<Variant>)| LoopRun {
             part: self.part,
             mesh: self.mesh,
             plan: self.plan,
@@ -138,7 +139,7 @@ impl Reference {
         let settings = Settings {
             tolerance: (CLOSER * tolerances(plan).1).max(1e-15),
             max_sweeps: plan.sweeps,
-            variant: Variant::Default,
+            ..Settings::default()
         };
         let reaction = alternation::solve(&problem, &settings)?.reaction;
         Ok(Self {
@@ -194,7 +195,7 @@ impl LoopRun<'_> {
             energy_gap: gap.sqrt(),
             distance: self.reference.distance(&outcome.reaction),
             contacts: self.reference.problem.contacts(),
-            sweeps: if self.variant == Variant::Nsgs {
+            sweeps: if self.is_baseline() {
                 0
             } else {
                 outcome.work.sweeps
@@ -209,23 +210,30 @@ impl LoopRun<'_> {
 
     /// The seconds of Gauss–Seidel are those of its passes alone, without the judge.
     fn timed(&self) -> Result<(Outcome, f64), Error> {
-        let problem = self.reference.problem.unasked();
+        let problem = &self.reference.problem;
         let settings = Settings {
             tolerance: self.tolerance,
             max_sweeps: self.most_sweeps(),
-            variant: self.variant,
+            ..Settings::default()
         };
         let start = Instant::now();
-        let outcome = alternation::solve(&problem, &settings)?;
-        let seconds = match self.variant {
-            Variant::Nsgs => outcome.work.seconds.predict,
-            _ => start.elapsed().as_secs_f64(),
+        let outcome = match self.variant {
+            None => alternation::solve(problem, &settings)?,
+            Some(variant) => variant.solve(problem, &settings)?,
+        };
+        let seconds = match self.is_baseline() {
+            true => outcome.work.seconds.predict,
+            false => start.elapsed().as_secs_f64(),
         };
         Ok((outcome, seconds))
     }
 
+    fn is_baseline(&self) -> bool {
+        self.variant == Some(Variant::Nsgs)
+    }
+
     fn most_sweeps(&self) -> usize {
-        if self.variant != Variant::Nsgs {
+        if !self.is_baseline() {
             return self.plan.sweeps;
         }
         let work = (self.reference.problem.unknowns() as f64).powi(2);
@@ -234,9 +242,9 @@ impl LoopRun<'_> {
 
     /// Seconds since the start and the judge's residual, wherever that was asked.
     fn course(&self, outcome: &Outcome) -> Vec<[f64; 2]> {
-        let mut at = match self.variant {
-            Variant::Nsgs => 0.0,
-            _ => outcome.work.seconds.predict,
+        let mut at = match self.is_baseline() {
+            true => 0.0,
+            false => outcome.work.seconds.predict,
         };
         let mut course: Vec<[f64; 2]> = Vec::new();
         for sweep in &outcome.history {

@@ -5,6 +5,7 @@
 //! (S2)  loop       ‖t − t*‖_G / ‖t*‖_G on one mesh, t* the default loop's at the tightest tolerance
 //! (S3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
 //! (S4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
+//! (S5)  half-steps to the last digit  so that loops differ in nothing but what they are named for
 //! ```
 //!
 //! A mesh that is generated is refined by its number of cells; meshes from files are given as a
@@ -12,12 +13,15 @@
 //! them, on an operator that is condensed once, so that its cost counts on no side. What takes less
 //! than a quarter of a second is repeated, and the median is kept.
 
+mod exact;
 mod ladder;
 mod loops;
 mod plan;
 mod tensor_grid;
+mod variant;
 
 pub use plan::{Plan, Progress};
+pub use variant::{Mixing, Sweeps, Variant};
 
 use crate::error::Error;
 use crate::report::Study;

@@ -78,6 +78,7 @@ pub(super) fn pair(bodies: [SceneBody; 2], groups: [&str; 2], friction: f64) -> 
             group: other,
         }),
         friction,
+        rounded: None,
     };
     Scene {
         bodies: bodies.to_vec(),

@@ -70,6 +70,7 @@ impl Pressing {
             obstacle: Some((self.obstacle)(motion)),
             against: None,
             friction: self.friction,
+            rounded: None,
         });
         certified(&scene)
     }

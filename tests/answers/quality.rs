@@ -86,6 +86,7 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         extremes: &vec![body::Extremes::default(); mechanics.bodies.len()],
         support_forces: &vec![Vec::new(); mechanics.bodies.len()],
         departure: none,
+        fits: &[],
         stages: &StageWork::default(),
         origins: &[],
         step: None,

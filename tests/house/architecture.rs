@@ -92,7 +92,9 @@ const MAY_IMPORT: [(&str, &[&str]); 21] = [
             "contact",
             "problem",
             "condensation",
+            "cone",
             "alternation",
+            "kkt",
             "pipeline",
             "report",
             "scene",
@@ -111,7 +113,7 @@ const ONLY: [(&str, &str, &[&str]); 3] = [
         &["ContactProblem", "Floating", "velocity_basis"],
     ),
     ("cone", "limit", &[]),
-    ("scene", "alternation", &["Settings", "Variant"]),
+    ("scene", "alternation", &["Settings"]),
 ];
 
 /// What only unit tests may import: a shipped file of the first may not name the second.

@@ -48,6 +48,7 @@ fn pair(place: &str, opposite: Opposite) -> ContactPair {
         facets: vec![],
         opposite,
         friction: 0.5,
+        rounded: true,
     }
 }
 
@@ -86,6 +87,7 @@ impl Row {
             tangents: 1,
             initial_gap,
             area,
+            bulge: 0.0,
             second: false,
             rim: node == 0,
         };
@@ -102,6 +104,7 @@ impl Row {
                 })
                 .collect(),
             left_out: vec![(0, 3)],
+            couplings: Vec::new(),
         };
         // G = I, so û = u − t with u = (0, 0.1), (0, 0), (−0.15, 0.3).
         let free = vec![4.0, 2.1, 6.0, -1.0, -0.15, 0.3];
@@ -201,6 +204,7 @@ impl Row {
             extremes: &self.extremes,
             support_forces: &self.support_forces,
             departure: Worst::default(),
+            fits: &[],
             stages: &STAGES,
             origins: &[],
             step: None,

@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use approx::assert_abs_diff_eq;
-use dpana::alternation::{Outcome, Settings, Status, Variant, solve};
+use dpana::alternation::{Outcome, Settings, Status, solve};
 use dpana::kkt::ContactStatus;
 use dpana::problem::{ContactProblem, Operator};
 use dpana::scene::BareProblem;
+use dpana::study::Variant;
 use faer::mat;
 
 fn load(name: &str) -> BareProblem {
@@ -133,20 +134,19 @@ fn one_contact_opens_as_by_hand() {
 #[test]
 fn the_three_loops_agree() {
     let problem = load("fem_static_N4_mu0.8.json").to_problem().unwrap();
-    let run = |variant, tolerance, max_sweeps| {
-        let outcome = solve(
-            &problem,
-            &Settings {
-                tolerance,
-                max_sweeps,
-                variant,
-            },
-        )
-        .unwrap();
+    let run = |variant: Variant, tolerance, max_sweeps| {
+        let settings = Settings {
+            tolerance,
+            max_sweeps,
+            ..Settings::default()
+        };
+        let outcome = variant.solve(&problem, &settings).unwrap();
         assert_eq!(outcome.status, Status::Certified, "{variant:?}");
         outcome.reaction
     };
-    let default = run(Variant::Default, 1e-12, 100);
+    let default = solve(&problem, &Settings::default()).unwrap();
+    assert_eq!(default.status, Status::Certified);
+    let default = default.reaction;
     let norm = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0, |norm: f64, x| norm.hypot(x));
     for (variant, tolerance, max_sweeps) in
         [(Variant::PLAIN, 1e-5, 200), (Variant::Nsgs, 1e-8, 20_000)]

@@ -6,6 +6,7 @@ mod square;
 
 mod bare_problems;
 mod continuity;
+mod discrete_kinds;
 mod hard_cases;
 mod judge;
 mod limits;

@@ -6,11 +6,12 @@
 //! so that sweeps from a cold start are still a little faster when they reach Clarabel's accuracy.
 
 use crate::square;
-use dpana::alternation::{Outcome, Settings, Status, Variant, solve};
+use dpana::alternation::{Outcome, Settings, Status, solve};
 use dpana::condensation::Condensed;
 use dpana::cone::{FrictionHalfStep, NormalHalfStep, Role};
 use dpana::kkt::ContactStatus;
 use dpana::problem::ContactProblem;
+use dpana::study::Variant;
 use faer::linalg::solvers::Solve;
 use faer::{Col, Mat};
 
@@ -23,13 +24,16 @@ fn square(poisson: f64, friction: f64) -> Condensed {
     Condensed::new(&mechanics.bodies, &mechanics.contacts).unwrap()
 }
 
-fn run(problem: &ContactProblem, variant: Variant, max_sweeps: usize) -> Outcome {
+fn plain(problem: &ContactProblem, max_sweeps: usize) -> Outcome {
     let settings = Settings {
         max_sweeps,
-        variant,
         ..Settings::default()
     };
-    solve(problem, &settings).unwrap()
+    Variant::PLAIN.solve(problem, &settings).unwrap()
+}
+
+fn default(problem: &ContactProblem) -> Outcome {
+    solve(problem, &Settings::default()).unwrap()
 }
 
 /// The sweep, linearised at a solution.
@@ -96,7 +100,7 @@ impl LinearSweep {
 fn the_leading_eigenvalue_of_a_sweep_is_near_friction_times_beta() {
     for (poisson, expected) in RATES {
         let condensed = square(poisson, 1.0);
-        let outcome = run(condensed.problem(), Variant::Default, 100);
+        let outcome = default(condensed.problem());
         let (rate, _) = LinearSweep::new(condensed.problem(), &outcome).leading();
         assert!((rate - expected).abs() < 0.01, "ν = {poisson}: {rate}");
         let beta = (1.0 - 2.0 * poisson) / (2.0 * (1.0 - poisson));
@@ -109,7 +113,7 @@ fn plain_sweeps_from_a_disturbed_solution_contract_at_that_rate() {
     for (poisson, expected) in RATES {
         let condensed = square(poisson, 1.0);
         let problem = condensed.problem();
-        let solution = run(problem, Variant::Default, 100);
+        let solution = default(problem);
         let sweep = LinearSweep::new(problem, &solution);
         let (_, vector) = sweep.leading();
         let mut reaction = solution.reaction.clone();
@@ -143,7 +147,7 @@ fn plain_sweeps_from_a_disturbed_solution_contract_at_that_rate() {
 fn plain_sweeps_from_a_cold_start_come_close_to_that_rate() {
     for (poisson, expected) in RATES {
         let condensed = square(poisson, 1.0);
-        let outcome = run(condensed.problem(), Variant::PLAIN, 30);
+        let outcome = plain(condensed.problem(), 30);
         let residuals = outcome.history.iter().map(|sweep| sweep.residual);
         let clean: Vec<f64> = residuals.filter(|r| (1e-7..1e-3).contains(r)).collect();
         // An even number of sweeps: the leading pair turns by a right angle in each.
@@ -159,13 +163,13 @@ fn plain_sweeps_from_a_cold_start_come_close_to_that_rate() {
 #[test]
 fn plain_sweeps_diverge_at_high_friction_where_the_default_is_certified() {
     let condensed = square(0.2, 5.0);
-    let plain = run(condensed.problem(), Variant::PLAIN, 60);
-    assert_eq!(plain.status, Status::NotConverged);
-    assert!(plain.history.iter().all(|sweep| sweep.residual > 1e-2));
+    let sweeps = plain(condensed.problem(), 60);
+    assert_eq!(sweeps.status, Status::NotConverged);
+    assert!(sweeps.history.iter().all(|sweep| sweep.residual > 1e-2));
     // The leading eigenvalue says why; and the default does not care.
-    let default = run(condensed.problem(), Variant::Default, 100);
-    assert_eq!(default.status, Status::Certified);
-    assert!(default.verdict.certificate.natural_map <= 1e-12);
-    let (rate, _) = LinearSweep::new(condensed.problem(), &default).leading();
+    let accelerated = default(condensed.problem());
+    assert_eq!(accelerated.status, Status::Certified);
+    assert!(accelerated.verdict.certificate.natural_map <= 1e-12);
+    let (rate, _) = LinearSweep::new(condensed.problem(), &accelerated).leading();
     assert!(rate > 1.0, "{rate}");
 }

@@ -57,6 +57,7 @@ pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneC
             group: other[1].to_owned(),
         }),
         friction,
+        rounded: None,
     }
 }
 
@@ -71,7 +72,8 @@ pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scen
 /// Solves a scene that must end certified.
 pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
     let solution = solve(scene).unwrap();
-    assert_eq!(solution.status(), Status::Certified);
+    let faults: Vec<_> = solution.fits().iter().map(|fit| fit.fault()).collect();
+    assert_eq!(solution.status(), Status::Certified, "{faults:?}");
     let report = solution.report().unwrap();
     (solution, report)
 }

@@ -61,6 +61,7 @@ fn on_floor(index: usize, body: &Body) -> ContactPair {
             normal: [0.0, 1.0, 0.0],
         }),
         friction: 0.3,
+        rounded: true,
     }
 }
 

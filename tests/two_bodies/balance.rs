@@ -2,6 +2,7 @@
 //! moments balance to round-off, also where the faces are curved and their meshes do not match.
 
 use dpana::body::{CellKind, Mesh};
+use dpana::contact::ContactNode;
 use dpana::report::{Contact, Report};
 use dpana::{Scene, Solution};
 use nalgebra::Vector3;
@@ -100,12 +101,25 @@ fn length(vector: &[f64]) -> f64 {
     vector.iter().map(|x| x * x).sum::<f64>().sqrt()
 }
 
-/// Initial gap times friction force, summed over the contacts, in newton metre.
+/// Distance of where both sides are pushed, times friction force, summed over the contacts, in newton metre.
 fn gap_times_friction(solution: &Solution, report: &Report) -> f64 {
-    let gaps = solution.condensed().problem().initial_gap();
     let friction = |c: &Contact| length(c.friction_traction.as_ref().unwrap()) * c.area;
-    let moments = report.contacts.iter().zip(gaps);
-    moments.map(|(c, gap)| gap.abs() * friction(c)).sum()
+    let moments = report
+        .contacts
+        .iter()
+        .zip(&solution.condensed().surface().nodes);
+    let apart = |node: &ContactNode| {
+        let opposite = node.opposite.as_ref().unwrap();
+        let nodes = [node.body, opposite.body].map(|body| &solution.bodies()[body].mesh.nodes);
+        let of = |side: usize, weights: &[(usize, f64)]| -> Vector3<f64> {
+            let terms = weights.iter();
+            terms
+                .map(|(k, w)| Vector3::from(nodes[side][*k]) * *w)
+                .sum()
+        };
+        (of(0, &node.own) - of(1, &opposite.nodes)).norm()
+    };
+    moments.map(|(c, node)| apart(node) * friction(c)).sum()
 }
 
 #[test]

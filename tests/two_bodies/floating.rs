@@ -383,8 +383,10 @@ fn units_and_the_size_of_the_load_change_nothing() {
 #[test]
 fn variants_for_study_need_held_bodies() {
     let scene = incline(2, "quad4", 0.5, 0.1, [2.0, 1.0]);
-    let mut scene = Scene::from_json(&scene.to_string(), "floating.json").unwrap();
-    scene.settings.variant = dpana::alternation::Variant::PLAIN;
-    let said = solve(&scene).unwrap_err().to_string();
-    assert!(said.contains("settings.variant: Sweeps"), "{said}");
+    let scene = Scene::from_json(&scene.to_string(), "floating.json").unwrap();
+    let solution = solve(&scene).unwrap();
+    let problem = solution.condensed().problem();
+    let found = dpana::study::Variant::PLAIN.solve(problem, &dpana::Settings::default());
+    let said = found.unwrap_err().to_string();
+    assert!(said.contains("variant: Sweeps"), "{said}");
 }

@@ -9,9 +9,13 @@ mod stacks;
 
 mod apart;
 mod balance;
+mod covered;
+mod covered_in_space;
+mod fits;
 mod floating;
 mod goodman_coupled;
 mod hertz;
 mod patch;
 mod quadratic;
+mod sabotage;
 mod several;

@@ -3,11 +3,10 @@
 //!
 //! | path | file |
 //! |---|---|
-//! | friction raised from nothing, or lowered from rough (D9) | `friction` |
-//! | in the plane, surfaces that approach from afar, exactly (D10) | `plane`: `plane_piece` |
+//! | in the plane, surfaces that approach from afar, exactly (D10) | `approach`: `plane`, `plane_piece` |
 //! | a load step, followed back to its start (D11) | `continuity` |
 
+mod approach;
 pub(super) mod continuity;
-pub(super) mod friction;
 mod plane;
 mod plane_piece;

@@ -214,3 +214,35 @@ pub(super) fn is_rough(problem: &ContactProblem, contact: usize) -> bool {
     let ends = &problem.offsets()[contact..contact + 2];
     ends[1] > ends[0] + 1 && problem.friction()[contact] > 0.0
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::{Mat, col};
+
+    use super::*;
+    use crate::problem::Operator;
+
+    #[test]
+    fn a_sticking_contact_carries_what_moves_it_until_its_disc_is_full() {
+        // G = 1, u = û + λ h + t = 0 with û = (1, 0), h = (0, 1): t = (−1, −λ), and μ = ½ ends it at λ = ½.
+        let operator = Operator::from_compliance(Mat::identity(2, 2)).unwrap();
+        let problem =
+            ContactProblem::new(&[1], vec![0.5], vec![0.0], vec![1.0, 0.0], operator).unwrap();
+        let piece = Piece {
+            problem: &problem,
+            drive: col![0.0, 1.0],
+            does: vec![Does::Stick],
+        };
+        let line = piece.line(0.25).unwrap();
+        let edges = piece.conditions(&line, 0).map(Option::unwrap);
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-11, "{found}");
+        // −μ t_N ∓ t_T at λ = ¼.
+        assert_eq!(edges[1].beyond, Does::Slip(-1.0));
+        close(edges[1].value, 0.25);
+        close(edges[1].rate, -1.0);
+        close(edges[0].value, 0.75);
+        close(piece.last(0.25)[1], -0.25);
+    }
+}

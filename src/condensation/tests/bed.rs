@@ -99,6 +99,7 @@ impl Bed {
                 tangents: if friction { kept } else { 0 },
                 initial_gap: 0.0,
                 area: 1.0,
+                bulge: 0.0,
                 second: false,
                 rim: false,
             });

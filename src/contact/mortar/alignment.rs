@@ -16,9 +16,13 @@
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
-/// Largest change of a weight. Beyond it the sides are not nearly parallel there: the
-/// weights stay, and the gap vector shows what is left.
+/// Largest change of a weight. Beyond it the sides are not nearly parallel there, or far from each
+/// other: what is left of `v` across the normal is for the normal to follow.
 const LARGEST: f64 = 0.1;
+
+/// Part of the distance of the farthest node by which a gap may lie across its normal: round-off of
+/// positions a thousand times as far away.
+const ROUND_OFF: f64 = 1e-9;
 
 /// Spread of the positions, relative to the largest, that is none.
 const RANK: f64 = 1e-10;
@@ -32,9 +36,8 @@ pub(super) fn align(
     still: [bool; 3],
 ) {
     let axes = tangents(normal);
-    let moving = Vector3::from(still.map(|still| if still { 0.0 } else { 1.0 }));
     let across = |vector: Vector3<f64>| {
-        let vector = vector.component_mul(&moving);
+        let vector = movable(vector, still);
         Vector2::from(axes.map(|axis| axis.dot(&vector)))
     };
     // Relative to x: large coordinates shall not cost digits.
@@ -52,11 +55,46 @@ pub(super) fn align(
     }
     let multiplier = solve(spread, stray);
     let changes = offsets.iter().map(|offset| -offset.dot(&multiplier));
-    if changes.clone().all(|change| change.abs() <= LARGEST) {
-        for ((_, weight), change) in weights.iter_mut().zip(changes) {
-            *weight += change;
-        }
+    let largest = changes
+        .clone()
+        .fold(LARGEST, |most, change| change.abs().max(most));
+    for ((_, weight), change) in weights.iter_mut().zip(changes) {
+        *weight += change * (LARGEST / largest);
     }
+}
+
+/// Whether a gap vector has a part across the normal, `size` being the distance of the farthest node: by
+/// more than round-off of that, along axes that are not `still`.
+pub(super) fn is_across(
+    normal: Vector3<f64>,
+    gap: Vector3<f64>,
+    size: f64,
+    still: [bool; 3],
+) -> bool {
+    let gap = movable(gap, still);
+    (gap - normal * gap.dot(&normal)).norm() > ROUND_OFF * size
+}
+
+/// The normal that a gap vector asks for: its own direction but for axes that are `still`. A vector that
+/// is more across the normal than along it says nothing.
+pub(super) fn follow(
+    normal: Vector3<f64>,
+    gap: Vector3<f64>,
+    size: f64,
+    still: [bool; 3],
+) -> Vector3<f64> {
+    let movable = movable(gap, still);
+    let along = movable.dot(&normal);
+    let steep = (movable - normal * along).norm() >= along.abs();
+    if steep || !is_across(normal, gap, size, still) {
+        return normal;
+    }
+    (movable * along).normalize()
+}
+
+fn movable(vector: Vector3<f64>, still: [bool; 3]) -> Vector3<f64> {
+    let moving = still.map(|still| if still { 0.0 } else { 1.0 });
+    vector.component_mul(&Vector3::from(moving))
 }
 
 /// Solves `spread · multiplier = stray` along the directions in which the positions spread.
@@ -160,16 +198,21 @@ mod tests {
     }
 
     #[test]
-    fn weights_far_beside_the_line_stay() {
+    fn weights_far_beside_the_line_go_part_of_the_way_and_the_normal_the_rest() {
         let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
-        align(
-            &mut weights,
-            &SQUARE,
-            [0.9, 0.5, 0.0],
-            Vector3::z(),
-            [false; 3],
+        let (from, normal) = (Vector3::new(0.9, 0.5, 0.0), Vector3::z());
+        align(&mut weights, &SQUARE, from.into(), normal, [false; 3]);
+        // (−0.4, 0) to go: 0.1 for each node moves the mean by 0.2.
+        assert!((weights[1].1 - 0.35).abs() < 1e-15 && (weights[0].1 - 0.15).abs() < 1e-15);
+        let gap = Vector3::new(-0.2, 0.0, 0.3);
+        assert!((stray(&weights, from, normal).x - gap.x).abs() < 1e-15);
+        assert!((follow(normal, gap, 1.0, [false; 3]) - gap.normalize()).norm() < 1e-15);
+        assert!((follow(normal, -gap, 1.0, [false; 3]) - gap.normalize()).norm() < 1e-15);
+        assert_eq!(follow(normal, gap, 1.0, [true, false, false]), normal);
+        assert_eq!(
+            follow(normal, Vector3::new(0.3, 0.0, 0.2), 1.0, [false; 3]),
+            normal
         );
-        assert_eq!(weights, [0, 1, 2, 3].map(|k| (k, 0.25)));
         let mut one = [(2, 1.0)];
         align(&mut one, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), [false; 3]);
         assert_eq!(one, [(2, 1.0)]);

@@ -1,5 +1,8 @@
 //! What the facets of both sides must be, so that everything after can rely on it.
 
+use std::ops::Range;
+
+use super::super::rounding::Bulges;
 use super::pieces::Piece;
 use super::view::View;
 use crate::body::{Facet, FacetGeometry, Mesh};
@@ -8,13 +11,19 @@ use crate::error::{Error, check_finite};
 /// Least turn at a facet's corners, relative to the square of its size.
 const FLAT: f64 = 1e-12;
 
-/// The facets of one side in linear pieces.
-pub(super) struct Surface<'a> {
+/// The facets of one side, and their linear pieces.
+pub(in crate::contact) struct Surface<'a> {
+    pub(super) mesh: &'a Mesh,
+    pub(super) facets: &'a [Facet],
     pub(super) pieces: Vec<Piece<'a>>,
+    /// Numbers of each facet's pieces.
+    pub(super) pieces_of: Vec<Range<usize>>,
     /// Corners of the pieces.
-    pub(super) facets: Vec<Facet>,
+    pub(super) corners: Vec<Facet>,
     /// Geometries of the pieces.
     pub(super) geometries: Vec<FacetGeometry>,
+    /// How far the smooth surface stands off the facets.
+    pub(super) bulges: Bulges,
 }
 
 impl<'a> Surface<'a> {
@@ -24,30 +33,67 @@ impl<'a> Surface<'a> {
     ///
     /// No facet at all, a wrong number of nodes, a node that does not exist or whose
     /// position is not finite, a facet without area or with a corner that turns backwards.
-    pub(super) fn new(mesh: &Mesh, facets: &'a [Facet], place: &str) -> Result<Self, Error> {
+    pub(in crate::contact) fn new(
+        mesh: &'a Mesh,
+        facets: &'a [Facet],
+        place: &str,
+    ) -> Result<Self, Error> {
         if facets.is_empty() {
             return Err(Error::Empty {
                 place: place.to_owned(),
             });
         }
         let mut surface = Self {
+            mesh,
+            facets,
             pieces: Vec::with_capacity(facets.len()),
-            facets: Vec::with_capacity(facets.len()),
+            pieces_of: Vec::with_capacity(facets.len()),
+            corners: Vec::with_capacity(facets.len()),
             geometries: Vec::with_capacity(facets.len()),
+            bulges: Bulges::none(facets.len()),
         };
         for (index, facet) in facets.iter().enumerate() {
             let place = format!("{place}[{index}]");
             check_nodes(mesh, facet, &place)?;
-            for piece in Piece::of(mesh, facet) {
+            let first = surface.pieces.len();
+            for piece in Piece::of(mesh, index, facet) {
                 surface
                     .geometries
                     .push(geometry(mesh, &piece.corners, &place)?);
-                surface.facets.push(piece.corners.clone());
+                surface.corners.push(piece.corners.clone());
                 surface.pieces.push(piece);
             }
+            surface.pieces_of.push(first..surface.pieces.len());
         }
         Ok(surface)
     }
+
+    /// The same, with what its facets stand for.
+    pub(in crate::contact) fn with(self, bulges: Bulges) -> Self {
+        Self { bulges, ..self }
+    }
+
+    /// Whether a facet's nodes are its corners.
+    pub(super) fn is_linear(&self, facet: usize) -> bool {
+        !self.facets[facet].is_quadratic(self.mesh.dimension)
+    }
+
+    /// Corners of a facet.
+    pub(super) fn corners_of(&self, facet: usize) -> &'a [usize] {
+        self.facets[facet].corners(self.mesh.dimension)
+    }
+}
+
+/// Refuses sides in meshes of different dimension.
+pub(super) fn check_dimensions(one: &Mesh, two: &Mesh, place: &str) -> Result<(), Error> {
+    if one.dimension == two.dimension {
+        return Ok(());
+    }
+    Err(Error::WrongDimension {
+        place: format!("{place}.opposite"),
+        expected: one.dimension,
+        found: two.dimension,
+    })
 }
 
 fn check_nodes(mesh: &Mesh, facet: &Facet, place: &str) -> Result<(), Error> {

@@ -1,29 +1,28 @@
-//! The coupling of two sides: facet by facet, then node by node.
+//! The coupling of two sides: patch by patch, then contact by contact.
 
 use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::alignment::align;
+use super::super::lift::lifts;
+use super::alignment::{align, follow, is_across};
 use super::check::Surface;
-use super::cover::Opposite;
-use super::overlap::Overlaps;
+#[cfg(test)]
+use super::check::check_dimensions;
+use super::coverage::Coverage;
+use super::join::join;
+use super::patch::{Patch, Stand};
 use super::projection::Projection;
-use super::search::Bounds;
-use super::view::View;
+use super::tiling;
+use super::trim::{Strip, strips};
 use super::{Mortar, MortarNode};
-use crate::body::{Facet, Mesh, Model};
-use crate::error::Error;
+#[cfg(test)]
+use crate::body::Facet;
+use crate::body::{Mesh, Model};
+use crate::error::{Error, check_finite};
 
 /// Covered share of a node's tributary area below which the node is no contact.
 const VANISHING: f64 = 1e-12;
-
-/// Interference that is believed, of the diagonal of the smaller side: more is no fit, and beyond
-/// small displacements.
-const INTERFERENCE: f64 = 0.05;
-
-/// Part of a limit that is round-off of the coordinates: what is stated to be just within it is.
-const WITHIN: f64 = 1.0 + 1e-9;
 
 /// Weight that is round-off.
 const NEGLIGIBLE: f64 = 4.0 * f64::EPSILON;
@@ -34,7 +33,7 @@ const NEGLIGIBLE: f64 = 4.0 * f64::EPSILON;
 ///
 /// The two sides may be faces of one mesh. In front there is no limit to the distance;
 /// overlap counts as an interference fit down to a twentieth of the diagonal of the
-/// smaller side.
+/// smaller side. Facets stand for themselves: nothing is rounded.
 ///
 /// # Errors
 ///
@@ -50,150 +49,171 @@ pub(in crate::contact) fn couple(
     model: Model,
     place: &str,
 ) -> Result<Mortar, Error> {
-    let mut mortar = average(mesh1, facets1, mesh2, facets2, model, place)?;
+    check_dimensions(mesh1, mesh2, place)?;
+    let side1 = Surface::new(mesh1, facets1, &format!("{place}.facets"))?;
+    let side2 = Surface::new(mesh2, facets2, &format!("{place}.opposite"))?;
+    let mut mortar = average(&Coverage::new(&side1, &side2, place)?, model, place)?;
     for node in &mut mortar.nodes {
         node.look_along(node.normal, [false; 3], mesh1, mesh2);
     }
+    mortar.lift();
     Ok(mortar)
 }
 
 /// The same up to (C9): weights and mean normals, but no gaps. What supports hold may still turn
 /// a normal ([`MortarNode::look_along`]).
 pub(in crate::contact) fn average(
-    mesh1: &Mesh,
-    facets1: &[Facet],
-    mesh2: &Mesh,
-    facets2: &[Facet],
+    coverage: &Coverage<'_>,
     model: Model,
     place: &str,
 ) -> Result<Mortar, Error> {
-    if mesh1.dimension != mesh2.dimension {
-        return Err(Error::WrongDimension {
-            place: format!("{place}.opposite"),
-            expected: mesh1.dimension,
-            found: mesh2.dimension,
-        });
-    }
-    let side1 = Surface::new(mesh1, facets1, &format!("{place}.facets"))?;
-    let side2 = Surface::new(mesh2, facets2, &format!("{place}.opposite"))?;
-    let extents = [(mesh1, facets1), (mesh2, facets2)]
-        .map(|(mesh, facets)| Bounds::around(mesh, facets.iter()).diagonal());
-    let depth = WITHIN * INTERFERENCE * extents[0].min(extents[1]);
-    let reach = extents[0].max(extents[1]);
-    let opposite = Opposite::new(mesh2, &side2.facets, &side2.geometries, [depth, reach]);
-    let overlaps = Overlaps::new(mesh1, mesh2);
+    let (one, two) = (coverage.one, coverage.two);
     let mut gathered = Gathered::default();
-    let mut averted = 0;
-    for piece in &side1.pieces {
-        let view = View::new(mesh1, &piece.corners);
-        let outline = view.outline(mesh1, &piece.corners);
-        let cover = opposite.cover(&view, &outline);
-        averted += cover.averted;
-        if let Some(span) = cover.behind.filter(|span| overlaps.encloses(span)) {
-            return Err(Error::Overlap {
-                place: place.to_owned(),
-                position: span.from.into(),
-                overlap: span.length(),
-                allowed: depth / WITHIN,
-            });
+    let patches = patches(coverage);
+    for patch in &patches {
+        if let Some(projection) = Projection::new(coverage, patch, model) {
+            gathered.add(patch, &projection);
         }
-        let pieces2 = &side2.pieces;
-        let projection = Projection::new(&view, &outline, piece, &cover.parts, pieces2, model);
-        gathered.add(piece.facet.corners(mesh1.dimension), &projection);
     }
-    for facet in facets1 {
-        gathered.support(mesh1, facet, model);
-    }
-    let same_mesh = std::ptr::eq(mesh1, mesh2);
+    let support = support(one, model);
+    let same_mesh = std::ptr::eq(one.mesh, two.mesh);
     let mut mortar = Mortar::default();
+    let mut number = HashMap::new();
     for share in gathered.shares {
-        let node = share.contact(place)?;
+        let stand = share.stand;
+        let support = support.get(&share.stand.node).copied().unwrap_or_default();
+        let node = share.contact(support, place)?.map(|node| MortarNode {
+            taken: one.bulges.taken(node.bulge),
+            ..node
+        });
         // A node that both faces share, as at the tip of a crack, has nothing to touch.
         let itself = |node: &MortarNode| {
             let mut others = node.opposite.iter().filter(|entry| entry.0 != node.node);
             same_mesh && others.all(|(_, weight)| weight.abs() < NEGLIGIBLE.sqrt())
         };
-        mortar.nodes.extend(node.filter(|node| !itself(node)));
+        if let Some(node) = node.filter(|node| !itself(node)) {
+            number.insert(stand, mortar.nodes.len());
+            mortar.nodes.push(node);
+        }
     }
+    let numbers = |patch: &Patch| {
+        let stands = patch.stands.iter();
+        stands
+            .filter_map(|stand| number.get(stand).copied())
+            .collect()
+    };
+    mortar.patches = patches.iter().map(numbers).collect();
     if mortar.nodes.is_empty() {
         return Err(Error::NothingFacesOpposite {
             place: place.to_owned(),
-            facets: facets1.len(),
-            opposite: facets2.len(),
-            averted,
+            facets: one.facets.len(),
+            opposite: two.facets.len(),
+            averted: coverage.averted,
         });
     }
     Ok(mortar)
 }
 
-/// Sums over the facets around each node, in the order in which facets name the nodes.
+/// The facets that are covered at all, with the functions of their contacts.
+fn patches(coverage: &Coverage<'_>) -> Vec<Patch> {
+    if coverage.one.mesh.dimension == 2 {
+        let strips = join(strips(coverage), coverage.one);
+        return strips.iter().map(Strip::patch).collect();
+    }
+    tiling::patches(coverage)
+}
+
+/// Tributary areas of the corners of a side, in m² (2D: metre).
+fn support(surface: &Surface<'_>, model: Model) -> HashMap<usize, f64> {
+    let mut support = HashMap::new();
+    for (index, facet) in surface.facets.iter().enumerate() {
+        let corners = surface.corners_of(index);
+        if model != Model::Axisymmetric && surface.is_linear(index) {
+            let geometry = surface.mesh.facet_geometry(facet);
+            for (node, weight) in corners.iter().zip(geometry.weights) {
+                *support.entry(*node).or_default() += weight;
+            }
+            continue;
+        }
+        for point in surface.mesh.facet_points(facet, model) {
+            let area = point.vector.norm();
+            for (node, hat) in corners.iter().zip(point.hats) {
+                *support.entry(*node).or_default() += hat * area;
+            }
+        }
+    }
+    support
+}
+
+/// Sums over the patches around each contact, in the order in which these name the contacts.
 #[derive(Default)]
 struct Gathered {
     shares: Vec<Share>,
-    place_of_node: HashMap<usize, usize>,
+    place_of_stand: HashMap<Stand, usize>,
 }
 
-#[derive(Default)]
 struct Share {
-    node: usize,
-    /// Whole tributary area and its covered part `D_i`, in m² (2D: metre).
-    support: f64,
+    stand: Stand,
+    /// `D_i`, in m² (2D: metre).
     weight: f64,
-    /// `∫ N_i n dA`, in m² (2D: metre).
+    /// `∫ φ_i (n − n²) dA`, in m² (2D: metre).
     vector: Vector3<f64>,
-    /// `D_ei`, or `∫ ψ_i N_k dA` per node of side 1, unsorted, in m² (2D: metre).
+    /// `∫ ψ_i N_k dA` per node of side 1, unsorted, in m² (2D: metre).
     own: Vec<(usize, f64)>,
     /// `D_ei P_eik` per node of side 2, unsorted, in m² (2D: metre).
     opposite: Vec<(usize, f64)>,
+    /// `∫ ψ_i b dA`, in m³ (2D: m²).
+    bulge: f64,
+    least: Vec<(f64, Vector3<f64>)>,
 }
 
 impl Gathered {
-    fn of(&mut self, node: usize) -> &mut Share {
-        let place = *self.place_of_node.entry(node).or_insert(self.shares.len());
+    fn of(&mut self, stand: Stand) -> &mut Share {
+        let place = *(self.place_of_stand.entry(stand)).or_insert(self.shares.len());
         if place == self.shares.len() {
             self.shares.push(Share {
-                node,
-                ..Share::default()
+                stand,
+                weight: 0.0,
+                vector: Vector3::zeros(),
+                own: Vec::new(),
+                opposite: Vec::new(),
+                bulge: 0.0,
+                least: Vec::new(),
             });
         }
         &mut self.shares[place]
     }
 
-    /// Adds the share of one piece, at the corners of its facet.
-    fn add(&mut self, corners: &[usize], projection: &Projection) {
-        for (local, &node) in corners.iter().enumerate() {
-            let share = self.of(node);
+    /// Adds the share of one patch to each of its contacts.
+    fn add(&mut self, patch: &Patch, projection: &Projection) {
+        for (local, &stand) in patch.stands.iter().enumerate() {
+            let share = self.of(stand);
             share.weight += projection.areas[local];
             share.vector += projection.vectors[local];
+            share.bulge += projection.bulges[local];
+            share.least.extend(&projection.least);
             let entry = |(node, column): &(usize, [f64; 4])| (*node, column[local]);
             let own = projection.own.iter().map(entry);
             share.own.extend(own.filter(|(_, weight)| *weight != 0.0));
             share.opposite.extend(projection.columns.iter().map(entry));
         }
     }
+}
 
-    /// Adds the whole areas of the corners of a facet.
-    fn support(&mut self, mesh: &Mesh, facet: &Facet, model: Model) {
-        let corners = facet.corners(mesh.dimension);
-        if model != Model::Axisymmetric && corners.len() == facet.nodes.len() {
-            let geometry = mesh.facet_geometry(facet);
-            for (node, weight) in corners.iter().zip(geometry.weights) {
-                self.of(*node).support += weight;
-            }
-            return;
-        }
-        for point in mesh.facet_points(facet, model) {
-            let area = point.vector.norm();
-            for (node, hat) in corners.iter().zip(point.hats) {
-                self.of(*node).support += hat * area;
-            }
+impl Mortar {
+    /// Bounds the gaps of all contacts from below (C20).
+    pub(in crate::contact) fn lift(&mut self) {
+        let bounds = self.nodes.iter().map(|node| (node.initial_gap, node.least));
+        let lifts = lifts(bounds, &self.patches);
+        for (node, lift) in self.nodes.iter_mut().zip(lifts) {
+            node.initial_gap += lift;
         }
     }
 }
 
 impl MortarNode {
-    /// Makes a unit vector the normal: the weights follow (C10), and the gap. Across it, axes may
-    /// be `still`: nothing moves along them.
+    /// Makes a unit vector the normal: the weights follow (C10), and the gap. Where they would have to
+    /// change much, the normal follows as well. Across it, axes may be `still`: nothing moves along them.
     pub(in crate::contact) fn look_along(
         &mut self,
         normal: [f64; 3],
@@ -201,63 +221,119 @@ impl MortarNode {
         mesh1: &Mesh,
         mesh2: &Mesh,
     ) {
+        let (x, normal) = (self.centre(mesh1), Vector3::from(normal));
+        let all = self.opposite.clone();
+        clear(&mut self.opposite);
+        // Nodes that it does not meet help where the others are too few, as at the end of a body.
+        let (mut gap, mut size) = self.aligned(x, normal, still, mesh2);
+        if is_across(normal, gap, size, still) {
+            self.opposite = all;
+            (gap, size) = self.aligned(x, normal, still, mesh2);
+        }
+        let normal = follow(normal, gap, size, still);
+        self.normal = normal.into();
+        self.gap_vector = gap.into();
+        self.initial_gap = gap.dot(&normal) - self.taken;
+    }
+
+    /// Lets the weights of the nodes that it meets follow a normal (C10): the gap vector then, and the distance of
+    /// the farthest node, in metre.
+    fn aligned(
+        &mut self,
+        x: Vector3<f64>,
+        normal: Vector3<f64>,
+        still: [bool; 3],
+        mesh2: &Mesh,
+    ) -> (Vector3<f64>, f64) {
+        align(&mut self.opposite, &mesh2.nodes, x.into(), normal, still);
+        clear(&mut self.opposite);
+        let (mut gap, mut size) = (Vector3::zeros(), 0.0_f64);
+        for (k, weight) in &self.opposite {
+            let away = Vector3::from(mesh2.nodes[*k]) - x;
+            gap += away * *weight;
+            size = size.max(away.norm());
+        }
+        (gap, size)
+    }
+
+    /// Nodes of side 2 that it meets, before the weights follow a normal.
+    pub(in crate::contact) fn met(&self) -> impl Iterator<Item = (usize, f64)> {
+        let opposite = self.opposite.iter().copied();
+        opposite.filter(|(_, weight)| weight.abs() > NEGLIGIBLE)
+    }
+
+    /// The mean of its own nodes, in metre.
+    pub(in crate::contact) fn centre(&self, mesh1: &Mesh) -> Vector3<f64> {
         let terms = self.own.iter();
-        let centre: Vector3<f64> = terms
+        terms
             .map(|(k, weight)| Vector3::from(mesh1.nodes[*k]) * *weight)
-            .sum();
-        let direction = Vector3::from(normal);
-        let weights = &mut self.opposite;
-        align(weights, &mesh2.nodes, centre.into(), direction, still);
-        let x = centre;
-        let terms = self.opposite.iter();
-        let gap_vector: Vector3<f64> = terms
-            .map(|(k, weight)| (Vector3::from(mesh2.nodes[*k]) - x) * *weight)
-            .sum();
-        self.normal = normal;
-        self.gap_vector = gap_vector.into();
-        self.initial_gap = gap_vector.dot(&direction);
+            .sum()
     }
 }
 
 impl Share {
-    /// The contact of the node (C9); none if nothing covers it.
-    fn contact(self, place: &str) -> Result<Option<MortarNode>, Error> {
-        if self.weight <= VANISHING * self.support {
+    /// The contact (C9) at a node of so large a tributary area; none if nothing covers it.
+    fn contact(self, support: f64, place: &str) -> Result<Option<MortarNode>, Error> {
+        if self.weight <= VANISHING * support {
             return Ok(None);
         }
+        let place = format!("{place}: node {}", self.stand.node);
         let Some(normal) = self.vector.try_normalize(VANISHING * self.weight) else {
             return Err(Error::Direction {
-                place: format!("{place}: node {}", self.node),
+                place,
                 value: self.vector.into(),
                 accepted: "facets around a node that do not look opposite ways",
             });
         };
-        Ok(Some(MortarNode {
-            node: self.node,
-            own: means(self.own),
+        let mut own = means(self.own, &place)?;
+        clear(&mut own);
+        let node = MortarNode {
+            node: self.stand.node,
+            moved: self.stand.moved.is_some(),
+            own,
             weight: self.weight,
             normal: normal.into(),
-            opposite: means(self.opposite),
+            opposite: means(self.opposite, &place)?,
+            bulge: self.bulge / self.weight,
+            taken: 0.0,
+            least: least(&self.least, normal),
             gap_vector: [0.0; 3],
             initial_gap: 0.0,
-            covered: (self.weight / self.support).min(1.0),
-        }))
+            covered: (self.weight / support).min(1.0),
+        };
+        Ok(Some(node).filter(|node| !node.own.is_empty() && !node.opposite.is_empty()))
     }
 }
 
-/// Weights per node that sum to one, ascending, without those that are round-off, from shares.
-fn means(mut shares: Vec<(usize, f64)>) -> Vec<(usize, f64)> {
+/// Least of distances along their own normals, along a common one.
+fn least(distances: &[(f64, Vector3<f64>)], normal: Vector3<f64>) -> f64 {
+    let along = |(distance, own): &(f64, Vector3<f64>)| distance * own.dot(&normal);
+    distances.iter().map(along).fold(f64::INFINITY, f64::min)
+}
+
+/// Weights per node that sum to one, ascending, from shares.
+fn means(mut shares: Vec<(usize, f64)>, place: &str) -> Result<Vec<(usize, f64)>, Error> {
     shares.sort_by_key(|entry| entry.0);
     shares.dedup_by(|next, kept| {
         let same = next.0 == kept.0;
         kept.1 += if same { next.1 } else { 0.0 };
         same
     });
-    let total: f64 = shares.iter().map(|entry| entry.1).sum();
-    shares.retain(|entry| entry.1.abs() > NEGLIGIBLE * total);
-    let total: f64 = shares.iter().map(|entry| entry.1).sum();
-    for entry in &mut shares {
+    scale(&mut shares);
+    let weights: Vec<f64> = shares.iter().map(|entry| entry.1).collect();
+    check_finite(&format!("{place}: mortar weights"), &weights)?;
+    Ok(shares)
+}
+
+/// Takes out the weights that are round-off.
+fn clear(weights: &mut Vec<(usize, f64)>) {
+    weights.retain(|entry| entry.1.abs() > NEGLIGIBLE);
+    scale(weights);
+}
+
+fn scale(weights: &mut [(usize, f64)]) {
+    let total: f64 = weights.iter().map(|entry| entry.1).sum();
+    for entry in weights {
         entry.1 /= total;
     }
-    shares
 }

@@ -12,10 +12,10 @@
 
 use nalgebra::Vector3;
 
+use super::check::Surface;
 use super::polygon::{Polygon, area, centroid, difference, intersection};
 use super::search::{Prism, Tree};
 use super::view::{Outline, View};
-use crate::body::{Facet, FacetGeometry, Mesh};
 
 /// Cosine between the outward normals of facets that face each other, at most.
 const FACING: f64 = -0.5;
@@ -28,9 +28,7 @@ const OVERLAP: f64 = 1e-9;
 
 /// The opposite side, ready to be looked at.
 pub(super) struct Opposite<'a> {
-    mesh: &'a Mesh,
-    facets: &'a [Facet],
-    geometries: &'a [FacetGeometry],
+    surface: &'a Surface<'a>,
     tree: Tree,
     /// Depth behind a facet down to which overlap is believed, and down to which it is
     /// looked for, in metre.
@@ -65,49 +63,53 @@ impl Span {
 /// A part of a facet and the facet of the other side that covers it.
 #[derive(Clone)]
 pub(super) struct Part {
-    /// Number of the covering facet.
+    /// Number of the covering piece.
     pub(super) opposite: usize,
     /// The covering facet in the plane of the covered one.
     pub(super) outline: Outline,
     /// The covered area in that plane.
     pub(super) polygon: Polygon,
     /// Distance to the covering facet, in the plane's unit.
-    distance: f64,
+    pub(super) distance: f64,
 }
 
 impl<'a> Opposite<'a> {
-    pub(super) fn new(
-        mesh: &'a Mesh,
-        facets: &'a [Facet],
-        geometries: &'a [FacetGeometry],
-        [depth, reach]: [f64; 2],
-    ) -> Self {
+    pub(super) fn new(surface: &'a Surface<'a>, [depth, reach]: [f64; 2]) -> Self {
         Self {
-            mesh,
-            facets,
-            geometries,
-            tree: Tree::new(mesh, facets),
+            surface,
+            tree: Tree::new(surface.mesh, &surface.corners),
             depth,
             reach,
         }
     }
 
-    /// What the opposite side is to a facet.
-    pub(super) fn cover(&self, view: &View, outline: &Outline) -> Cover {
+    /// What the opposite side is to a facet, whose smooth surface stands off by `bulge` in metre where its
+    /// functions have given values.
+    pub(super) fn cover(
+        &self,
+        view: &View,
+        outline: &Outline,
+        bulge: impl Fn(&[f64; 4]) -> f64,
+    ) -> Cover {
         let facet = outline.polygon();
         let least = SLIVER * area(&facet);
         let mut cover = Cover::default();
         for index in self.tree.over(&Prism::new(view, &facet, self.reach)) {
             let cosine = view
                 .normal
-                .dot(&Vector3::from(self.geometries[index].normal));
+                .dot(&Vector3::from(self.surface.geometries[index].normal));
             cover.averted += usize::from(cosine > -FACING);
             if cosine >= FACING {
                 continue;
             }
-            let Some(part) = self.part(view, outline, &facet, least, index) else {
+            let Some(mut part) = self.part(view, outline, &facet, least, index) else {
                 continue;
             };
+            let between = bulge(&outline.shape(centroid(&part.polygon))) + self.bulge(&part);
+            part.distance -= self.surface.bulges.taken(between) / view.size;
+            if part.distance * view.size <= -self.reach {
+                continue;
+            }
             if part.distance * view.size > -self.depth {
                 cover.parts.push(part);
                 continue;
@@ -130,7 +132,7 @@ impl<'a> Opposite<'a> {
         least: f64,
         opposite: usize,
     ) -> Option<Part> {
-        let outline = view.outline(self.mesh, &self.facets[opposite]);
+        let outline = view.outline(self.surface.mesh, &self.surface.corners[opposite]);
         // A warped facet seen askew may fold over itself: then it hides what it covers.
         if outline.least_turn(-1.0) <= 0.0 {
             return None;
@@ -141,12 +143,21 @@ impl<'a> Opposite<'a> {
         }
         let centre = centroid(&polygon);
         let distance = outline.height(&outline.shape(centre)) - facet.height(&facet.shape(centre));
-        (distance * view.size > -self.reach).then_some(Part {
+        Some(Part {
             opposite,
             outline,
             polygon,
             distance,
         })
+    }
+
+    /// How far the smooth surface of what covers a part stands off there, in metre.
+    fn bulge(&self, part: &Part) -> f64 {
+        let piece = &self.surface.pieces[part.opposite];
+        let shape = part.outline.shape(centroid(&part.polygon));
+        self.surface
+            .bulges
+            .height(piece.number, &piece.hats(&shape))
     }
 }
 

@@ -9,15 +9,14 @@
 
 use nalgebra::Vector3;
 
+use super::super::turn::is_straight;
 use crate::body::{Facet, FacetReference, MOST_FACET_NODES, Mesh};
-
-/// Departure from straight sides, relative to the size of the facet, that is round-off.
-const STRAIGHT: f64 = 1e-10;
 
 /// A linear piece of a facet.
 pub(super) struct Piece<'a> {
-    /// The facet it is of.
+    /// The facet it is of, and its number.
     pub(super) facet: &'a Facet,
+    pub(super) number: usize,
     /// Its corners.
     pub(super) corners: Facet,
     /// Where they are on the reference facet, if that is quadratic.
@@ -26,9 +25,10 @@ pub(super) struct Piece<'a> {
 
 impl<'a> Piece<'a> {
     /// The pieces of a facet, whose nodes exist.
-    pub(super) fn of(mesh: &Mesh, facet: &'a Facet) -> Vec<Self> {
+    pub(super) fn of(mesh: &Mesh, number: usize, facet: &'a Facet) -> Vec<Self> {
         let whole = |parent| Self {
             facet,
+            number,
             corners: Facet {
                 nodes: facet.corners(mesh.dimension).to_vec(),
             },
@@ -41,13 +41,14 @@ impl<'a> Piece<'a> {
             return vec![whole(None)];
         }
         let nodes = reference.nodes();
-        if is_straight(mesh, facet, reference) {
+        if is_straight(mesh, facet) {
             let corners = nodes[..reference.corners()].to_vec();
             return vec![whole(Some((reference, corners)))];
         }
         let cut = cuts(nodes.len()).iter();
         cut.map(|locals| Self {
             facet,
+            number,
             corners: Facet {
                 nodes: locals.iter().map(|local| facet.nodes[*local]).collect(),
             },
@@ -62,14 +63,6 @@ impl<'a> Piece<'a> {
     /// Whether the facet has nodes beside its corners.
     pub(super) fn is_quadratic(&self) -> bool {
         self.parent.is_some()
-    }
-
-    /// Number of the facet's corners.
-    pub(super) fn hat_count(&self) -> usize {
-        match &self.parent {
-            None => self.corners.nodes.len(),
-            Some((reference, _)) => reference.corners(),
-        }
     }
 
     /// Values at the facet's nodes of its shape functions, from those of the piece.
@@ -98,6 +91,24 @@ impl<'a> Piece<'a> {
         values
     }
 
+    /// Unit normal of a quadratic facet at a point of the piece; none if the facet is linear.
+    pub(super) fn normal(&self, mesh: &Mesh, of_piece: &[f64; 4]) -> Option<Vector3<f64>> {
+        let (reference, at) = self.on_facet(of_piece)?;
+        let x = |node: &usize| Vector3::from(mesh.nodes[*node]);
+        let mut tangents = [Vector3::zeros(), Vector3::zeros()];
+        for (node, slopes) in self.facet.nodes.iter().zip(reference.slopes(at)) {
+            for (tangent, slope) in tangents.iter_mut().zip(slopes) {
+                *tangent += x(node) * slope;
+            }
+        }
+        let across = if mesh.dimension == 2 {
+            Vector3::z()
+        } else {
+            tangents[1]
+        };
+        tangents[0].cross(&across).try_normalize(0.0)
+    }
+
     fn on_facet(&self, of_piece: &[f64; 4]) -> Option<(FacetReference, [f64; 3])> {
         let (reference, corners) = self.parent.as_ref()?;
         let mut at = [0.0; 3];
@@ -108,19 +119,6 @@ impl<'a> Piece<'a> {
         }
         Some((*reference, at))
     }
-}
-
-/// Whether the nodes between corners are where straight sides have them.
-fn is_straight(mesh: &Mesh, facet: &Facet, reference: FacetReference) -> bool {
-    let x = |node: &usize| Vector3::from(mesh.nodes[*node]);
-    let corners: Vec<_> = facet.corners(mesh.dimension).iter().map(x).collect();
-    let size = corners.iter().map(|c| (c - corners[0]).norm());
-    let allowed = STRAIGHT * size.fold(0.0, f64::max);
-    facet.nodes.iter().zip(reference.nodes()).all(|(node, at)| {
-        let terms = corners.iter().zip(reference.hats(*at));
-        let straight: Vector3<f64> = terms.map(|(corner, hat)| corner * hat).sum();
-        (x(node) - straight).norm() <= allowed
-    })
 }
 
 /// Local nodes of the pieces of a facet of so many nodes.

@@ -3,7 +3,7 @@
 //! Corners run counter-clockwise. An intersection is cut out edge by edge (Sutherland &
 //! Hodgman, Comm. ACM 17 (1974) 32–42); what each cut throws away is the difference.
 
-use nalgebra::Vector2;
+use nalgebra::{SVector, Vector2};
 
 /// A point of the plane.
 pub(super) type Point = Vector2<f64>;
@@ -96,6 +96,31 @@ pub(super) fn difference(polygon: &[Point], other: &[Point], least: f64) -> Vec<
     parts
 }
 
+/// The point of a segment that is nearest to another one.
+pub(super) fn on_segment<const N: usize>(
+    [from, to]: [SVector<f64, N>; 2],
+    other: SVector<f64, N>,
+) -> SVector<f64, N> {
+    let along = to - from;
+    let share = (other - from).dot(&along) / along.norm_squared();
+    // Ends that coincide leave 0/0, which is the start.
+    let share = if share > 0.0 { share.min(1.0) } else { 0.0 };
+    from + along * share
+}
+
+/// The point of a polygon that is nearest to another one.
+pub(super) fn nearest(polygon: &[Point], other: Point) -> Point {
+    let left = |(from, to): (Point, Point)| cross(to - from, other - from) >= 0.0;
+    if edges(polygon).all(left) {
+        return other;
+    }
+    let on_edges = edges(polygon).map(|(from, to)| on_segment([from, to], other));
+    let distance = |at: &Point| (at - other).norm_squared();
+    on_edges
+        .min_by(|a, b| distance(a).total_cmp(&distance(b)))
+        .unwrap_or(other)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -143,5 +168,17 @@ mod tests {
     #[test]
     fn nothing_is_left_of_a_polygon_inside_another() {
         assert!(difference(&diamond(), &square(-1.0, -1.0, 2.0), 0.0).is_empty());
+    }
+
+    #[test]
+    fn a_point_beside_a_polygon_is_nearest_to_an_edge_or_a_corner() {
+        let polygon = square(0.0, 0.0, 1.0);
+        for (from, expected) in [
+            ([0.3, 0.9], [0.3, 0.9]),
+            ([1.5, 0.25], [1.0, 0.25]),
+            ([-1.0, 4.0], [0.0, 1.0]),
+        ] {
+            assert_eq!(nearest(&polygon, Point::from(from)), Point::from(expected));
+        }
     }
 }

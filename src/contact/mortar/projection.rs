@@ -1,121 +1,233 @@
-//! What one piece of a facet contributes: its covered area and its projection of the other side.
+//! What one patch of side 1 contributes: its covered area and its projection of the other side.
 //!
 //! ```text
-//! D_i = ∫ N_i dA      M_ij = ∫ N_i N_j dA      B_ik = ∫ N_i N²_k dA      P = M⁻¹ B
+//! D_i = ∫ φ_i dA      M_ij = ∫ φ_i φ_j dA      B_ik = ∫ φ_i N²_k dA      P = M⁻¹ B
 //! ```
 //!
 //! all over the covered parts. `P` is the least-squares projection of side 2 onto the
-//! facet's shape functions, so that `D_i P_ik = ∫ ψ_i N²_k dA` with the dual functions
-//! `ψ = D M⁻¹ N`. Rows of `B` sum to `M 1`, hence rows of `P` sum to one.
+//! patch's functions (C19), so that `D_i P_ik = ∫ ψ_i N²_k dA` with the dual functions
+//! `ψ = D M⁻¹ φ`. Rows of `B` sum to `M 1`, hence rows of `P` sum to one.
 //!
-//! On quadratic facets the linear `φ_j` of (C16) stand for `N_i`, and their own nodes enter by
-//! `∫ ψ_j N_k dA`. Around an axis `dA = 2πr ds`.
+//! The nodes of side 1 enter in the same way, by `∫ ψ_i N_k dA`: on a single linear facet that is `D_i`
+//! times the place where the contact stands, and on one that is wholly covered the node alone. So do
+//! what facets leave of the gap (C18), and both sides' normals. Around an axis `dA = 2πr ds`.
 
 use nalgebra::Vector3;
 
 use super::cover::Part;
+use super::coverage::{Coverage, Seen};
+use super::patch::{MOST_CONTACTS, Member, Patch};
 use super::pieces::Piece;
+use super::polygon::Point;
 use super::quadrature::{LINEAR, integrate, points_for};
-use super::view::{Outline, View};
-use crate::body::{MOST_FACET_NODES, Model, around};
+use super::view::Outline;
+use crate::body::{Facet, MOST_FACET_NODES, Mesh, Model, around};
 
 /// Pivot of the scaled `M` below which the covered part is too small to tell slopes.
 const PIVOT: f64 = 1e-14;
 
-/// One facet's share of the coupling; arrays per node, zero past its last one.
+/// A value per contact of a patch, zero past the last one.
+type PerContact = [f64; MOST_CONTACTS];
+
+/// One patch's share of the coupling.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Projection {
     /// `D_i`, in m² (2D: metre).
-    pub(super) areas: [f64; 4],
-    /// `∫ N_i n dA`, in m² (2D: metre).
-    pub(super) vectors: [Vector3<f64>; 4],
-    /// Nodes of the facet, with `D_j` at node j alone, or with `∫ ψ_j N_k dA` (C16).
-    pub(super) own: Vec<(usize, [f64; 4])>,
+    pub(super) areas: PerContact,
+    /// `∫ φ_i (n − n²) dA`, in m² (2D: metre).
+    pub(super) vectors: [Vector3<f64>; MOST_CONTACTS],
+    /// Nodes of side 1 with `∫ ψ_i N_k dA`, in m² (2D: metre).
+    pub(super) own: Vec<(usize, PerContact)>,
     /// Nodes of side 2, ascending, with `D_i P_ik = ∫ ψ_i N²_k dA`.
-    pub(super) columns: Vec<(usize, [f64; 4])>,
+    pub(super) columns: Vec<(usize, PerContact)>,
+    /// `∫ ψ_i b dA`, b of both sides (C18), in m³ (2D: m²).
+    pub(super) bulges: PerContact,
+    /// Least distance along its own normal of each piece, and that normal: of all points where it is
+    /// integrated and of the ends of its parts.
+    pub(super) least: Vec<(f64, Vector3<f64>)>,
+}
+
+/// The sides at a point of a part.
+struct Meeting {
+    /// Values of the corners' functions and of the shape functions on side 1, and of those on side 2.
+    hats: [f64; 4],
+    own: [f64; MOST_FACET_NODES],
+    across: [f64; MOST_FACET_NODES],
+    /// b of both sides (C18), in metre.
+    bulge: f64,
+    /// Sum of the unit normal of side 1 and of the opposite one of side 2.
+    normal: Vector3<f64>,
+    /// Distance of the smooth surfaces along the normal of the piece, in metre.
+    gap: f64,
+}
+
+/// A piece of side 1 and one part of it that is covered.
+struct Place<'a> {
+    coverage: &'a Coverage<'a>,
+    piece: &'a Piece<'a>,
+    seen: &'a Seen,
+    part: &'a Part,
+}
+
+impl Place<'_> {
+    /// The piece that covers it.
+    fn across(&self) -> &Piece<'_> {
+        &self.coverage.two.pieces[self.part.opposite]
+    }
+
+    /// Gauss points per direction that its integrals need.
+    fn points(&self, model: Model) -> usize {
+        let (piece, across) = (self.piece, self.across());
+        let outlines = [&self.seen.outline, &self.part.outline];
+        let points = match piece.corners.nodes.len().max(across.corners.nodes.len()) {
+            4 => points_for(
+                outlines
+                    .map(Outline::distortion)
+                    .into_iter()
+                    .fold(0.0, f64::max),
+            ),
+            _ => LINEAR,
+        };
+        let higher = piece.is_quadratic() || across.is_quadratic() || model == Model::Axisymmetric;
+        points + usize::from(higher)
+    }
+
+    /// Both sides at a point of the piece's plane.
+    fn at(&self, at: Point) -> Meeting {
+        let (piece, across) = (self.piece, self.across());
+        let (of_piece, of_across) = (self.seen.outline.shape(at), self.part.outline.shape(at));
+        let (own, there) = (piece.shape(&of_piece), across.shape(&of_across));
+        let (one, two) = (self.coverage.one, self.coverage.two);
+        let hats = piece.hats(&of_piece);
+        let bulge = one.bulges.height(piece.number, &hats)
+            + two.bulges.height(across.number, &across.hats(&of_across));
+        let view = &self.seen.view;
+        let height = |mesh: &Mesh, facet: &Facet, shape: &[f64]| -> f64 {
+            let terms = facet.nodes.iter().zip(shape);
+            terms
+                .map(|(node, value)| view.height(mesh.nodes[*node]) * value)
+                .sum()
+        };
+        let gap = height(two.mesh, across.facet, &there) - height(one.mesh, piece.facet, &own);
+        let own_normal = piece.normal(one.mesh, &of_piece);
+        let flat = || view.vector(self.seen.outline.area_vector(at)).normalize();
+        let two_normal = across.normal(two.mesh, &of_across);
+        let opposite = || Vector3::from(two.geometries[self.part.opposite].normal);
+        Meeting {
+            normal: own_normal.unwrap_or_else(flat) - two_normal.unwrap_or_else(opposite),
+            hats,
+            own,
+            across: there,
+            bulge,
+            gap: gap - one.bulges.taken(bulge),
+        }
+    }
+}
+
+/// Integrals over a patch, before `M` is divided out of them.
+#[derive(Default)]
+struct Integrals {
+    mass: [PerContact; MOST_CONTACTS],
+    sums: Projection,
+}
+
+impl Integrals {
+    /// Adds what covers a part, where the functions have the values of `member` at the corners.
+    fn add(&mut self, place: &Place<'_>, member: &Member, model: Model) {
+        let (seen, part) = (place.seen, place.part);
+        let around = around(model);
+        let (mut own, mut across) = ([[0.0; 4]; MOST_FACET_NODES], [[0.0; 4]; MOST_FACET_NODES]);
+        let mut least = f64::INFINITY;
+        integrate(&part.polygon, place.points(model), |at, share| {
+            let of_piece = seen.outline.shape(at);
+            let within = seen.outline.within(at, seen.outline.height(&of_piece));
+            let stretch = share * seen.view.unit * around(seen.view.position(within));
+            let vector = seen.view.vector(seen.outline.area_vector(at)) * stretch;
+            let area = vector.norm();
+            let met = place.at(at);
+            let here = member.functions(&met.hats);
+            least = least.min(met.gap);
+            for (i, value) in here.into_iter().enumerate() {
+                let weight = value * area;
+                self.sums.areas[i] += weight;
+                self.sums.vectors[i] += met.normal * weight;
+                self.sums.bulges[i] += met.bulge * weight;
+                for (entry, other) in self.mass[i].iter_mut().zip(here) {
+                    *entry += weight * other;
+                }
+                let columns = own.iter_mut().chain(&mut across);
+                for (column, shape) in columns.zip(met.own.iter().chain(&met.across)) {
+                    column[i] += shape * weight;
+                }
+            }
+        });
+        let corners = part.polygon.iter().map(|at| place.at(*at).gap);
+        self.sums
+            .least
+            .push((corners.fold(least, f64::min), seen.view.normal));
+        let nodes = |piece: &Piece<'_>| piece.facet.nodes.clone().into_iter();
+        self.sums.own.extend(nodes(place.piece).zip(own));
+        self.sums.columns.extend(nodes(place.across()).zip(across));
+    }
 }
 
 impl Projection {
-    /// Integrates over the parts of a piece that `opposite` pieces cover.
-    pub(super) fn new(
-        view: &View,
-        facet: &Outline,
-        piece: &Piece<'_>,
-        parts: &[Part],
-        opposite: &[Piece<'_>],
-        model: Model,
-    ) -> Self {
-        let nodes = piece.hat_count();
-        let around = around(model);
-        let mut mass = [[0.0; 4]; 4];
-        let mut own = [[0.0; 4]; MOST_FACET_NODES];
-        let mut projection = Self::default();
-        for part in parts {
-            let across = &opposite[part.opposite];
-            let mut columns = [[0.0; 4]; MOST_FACET_NODES];
-            let points = match piece.corners.nodes.len().max(across.corners.nodes.len()) {
-                4 => points_for(facet.distortion().max(part.outline.distortion())),
-                _ => LINEAR,
-            };
-            let higher =
-                piece.is_quadratic() || across.is_quadratic() || model == Model::Axisymmetric;
-            integrate(&part.polygon, points + usize::from(higher), |at, share| {
-                let of_piece = facet.shape(at);
-                let position = view.position(facet.within(at, facet.height(&of_piece)));
-                let stretch = share * view.unit * around(position);
-                let vector = view.vector(facet.area_vector(at)) * stretch;
-                let area = vector.norm();
-                let here = piece.hats(&of_piece);
-                let there = across.shape(&part.outline.shape(at));
-                if piece.is_quadratic() {
-                    for (column, value) in own.iter_mut().zip(piece.shape(&of_piece)) {
-                        for (entry, hat) in column.iter_mut().zip(here) {
-                            *entry += hat * value * area;
-                        }
-                    }
+    /// Integrates over all of a patch that is covered; none if that has no area.
+    pub(super) fn new(coverage: &Coverage<'_>, patch: &Patch, model: Model) -> Option<Self> {
+        let mut integrals = Integrals::default();
+        for member in &patch.members {
+            for (piece, seen) in coverage.of(member.facet) {
+                for part in &seen.parts {
+                    let place = Place {
+                        coverage,
+                        piece,
+                        seen,
+                        part,
+                    };
+                    integrals.add(&place, member, model);
                 }
-                for i in 0..nodes {
-                    projection.areas[i] += here[i] * area;
-                    projection.vectors[i] += vector * here[i];
-                    for j in 0..nodes {
-                        mass[i][j] += here[i] * here[j] * area;
-                    }
-                    for (column, value) in columns.iter_mut().zip(there) {
-                        column[i] += here[i] * value * area;
-                    }
-                }
-            });
-            let nodes = across.facet.nodes.iter().copied();
-            projection.columns.extend(nodes.zip(columns));
-        }
-        merge(&mut projection.columns);
-        let facet = piece.facet.nodes.iter().copied();
-        projection.own = facet.zip(own).collect();
-        projection.solve(nodes, mass);
-        if !piece.is_quadratic() {
-            // Biorthogonality to the last bit.
-            for (i, (_, column)) in projection.own.iter_mut().enumerate() {
-                *column = [0.0; 4];
-                column[i] = projection.areas[i];
             }
         }
-        projection
+        let Integrals { mass, mut sums } = integrals;
+        if sums.areas.iter().sum::<f64>() <= 0.0 {
+            return None;
+        }
+        merge(&mut sums.columns);
+        sums.solve(patch.stands.len(), mass);
+        match (patch.shares, &patch.members[..]) {
+            (Some(shares), [member]) if coverage.one.is_linear(member.facet) => {
+                sums.stand(coverage.one.corners_of(member.facet), &shares);
+            }
+            _ => merge(&mut sums.own),
+        }
+        Some(sums)
     }
 
     /// Replaces the columns of `B` by those of `D P = D M⁻¹ B`.
-    fn solve(&mut self, nodes: usize, mass: [[f64; 4]; 4]) {
+    fn solve(&mut self, contacts: usize, mass: [PerContact; MOST_CONTACTS]) {
         let total: f64 = self.areas.iter().sum();
-        let factor = Factor::new(nodes, mass);
-        for (_, column) in self.columns.iter_mut().chain(&mut self.own) {
+        let factor = Factor::new(contacts, mass);
+        let nodes = self.columns.iter_mut().chain(&mut self.own);
+        let columns = nodes.map(|(_, column)| column);
+        for column in columns.chain(std::iter::once(&mut self.bulges)) {
             match &factor {
                 Some(factor) => factor.solve(column),
-                // All nodes see the mean of what covers so small a part.
-                None => *column = [column.iter().sum::<f64>() / total; 4],
+                // All contacts see the mean of what covers so small a part.
+                None => *column = [column.iter().sum::<f64>() / total; MOST_CONTACTS],
             }
             for (entry, area) in column.iter_mut().zip(self.areas) {
                 *entry *= area;
             }
         }
+    }
+
+    /// On a linear facet the own nodes are known to the last bit: where the contacts stand.
+    fn stand(&mut self, corners: &[usize], shares: &[[f64; 4]; MOST_CONTACTS]) {
+        let of = |corner: usize| -> PerContact {
+            std::array::from_fn(|contact| self.areas[contact] * shares[contact][corner])
+        };
+        let corners = corners.iter().enumerate();
+        self.own = corners.map(|(corner, &node)| (node, of(corner))).collect();
     }
 }
 

@@ -82,6 +82,17 @@ impl View {
         outline
     }
 
+    /// Where a position is in the plane.
+    pub(super) fn coordinates(&self, position: Vector3<f64>) -> Point {
+        let offset = (position - self.origin) / self.size;
+        self.axes.map(|axis| axis.dot(&offset)).into()
+    }
+
+    /// Height of a position above the plane, in metre.
+    pub(super) fn height(&self, position: [f64; 3]) -> f64 {
+        self.normal.dot(&(Vector3::from(position) - self.origin))
+    }
+
     /// A point given by its coordinates in the plane and along the normal, in metre.
     pub(super) fn position(&self, coordinates: [f64; 3]) -> Vector3<f64> {
         self.origin + self.vector(coordinates) * self.size
@@ -103,6 +114,17 @@ pub(super) struct Outline {
 }
 
 impl Outline {
+    /// Its corners in the plane.
+    pub(super) fn corners(&self) -> &[Point] {
+        &self.corners[..self.nodes]
+    }
+
+    /// The point of the plane where its shape functions have given values.
+    pub(super) fn at(&self, shape: &[f64; 4]) -> Point {
+        let terms = self.corners.iter().zip(shape);
+        terms.map(|(corner, value)| corner * *value).sum()
+    }
+
     /// The area it covers, counter-clockwise.
     pub(super) fn polygon(&self) -> Polygon {
         if self.nodes == 2 {

@@ -25,6 +25,7 @@ pub(crate) fn lid_on_box(gap: f64) -> (Vec<Body>, ContactSurface, ContactProblem
         tangents: 1,
         initial_gap: gap,
         area: 1.0,
+        bulge: 0.0,
         second: false,
         rim: false,
     };
@@ -48,6 +49,7 @@ pub(crate) fn pairs() -> Vec<ContactPair> {
         facets: Vec::new(),
         opposite,
         friction: 0.5,
+        rounded: true,
     };
     let plane = Obstacle::Plane {
         point: [0.0; 3],

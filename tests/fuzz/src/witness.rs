@@ -36,8 +36,12 @@ pub fn witness(problem: &ContactProblem, outcome: &Outcome, tolerance: f64) {
     match outcome.status {
         Status::Certified => certified(problem, outcome, tolerance),
         Status::NoEquilibrium => impossible(problem, outcome),
+        Status::CouplingFault => panic!("certified as a problem, and the bodies are elsewhere"),
         Status::NotConverged => {
-            let unbalanced = matches!(outcome.shortfall, Some(Shortfall::OutOfBalance { .. }));
+            let unbalanced = matches!(
+                outcome.shortfall,
+                Some(Shortfall::OutOfBalance { .. } | Shortfall::IllConditioned { .. })
+            );
             assert!(
                 unbalanced || !(outcome.verdict.certificate.residual() <= tolerance),
                 "good enough, but not certified"

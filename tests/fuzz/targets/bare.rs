@@ -3,7 +3,8 @@
 
 use arbitrary::{Arbitrary, Result, Unstructured};
 use dpana::problem::{ContactProblem, Floating, Operator};
-use dpana::alternation::{Settings, Variant, solve};
+use dpana::alternation::{Settings, solve};
+use dpana::study::Variant;
 use dpana_fuzz::witness;
 use faer::Mat;
 use libfuzzer_sys::fuzz_target;
@@ -40,6 +41,8 @@ struct Numbers {
     compliance: Mat<f64>,
     modes: Option<(Mat<f64>, Vec<f64>)>,
     settings: Settings,
+    /// None is the default loop.
+    variant: Option<Variant>,
 }
 
 /// Mostly tame, sometimes anything.
@@ -99,7 +102,7 @@ impl<'a> Arbitrary<'a> for Numbers {
             0 => Settings {
                 tolerance: number(from, true)?,
                 max_sweeps: from.int_in_range(0..=30)?,
-                variant: [Variant::PLAIN, Variant::Nsgs][usize::from(bool::arbitrary(from)?)],
+                ..Settings::default()
             },
             1 => Settings {
                 tolerance: 10_f64.powi(from.int_in_range(-17..=0)?),
@@ -111,6 +114,11 @@ impl<'a> Arbitrary<'a> for Numbers {
                 ..Settings::default()
             },
         };
+        let variant = match from.int_in_range(0..=19_u8)? {
+            0 => Some(Variant::PLAIN),
+            1 => Some(Variant::Nsgs),
+            _ => None,
+        };
         Ok(Self {
             tangents,
             friction,
@@ -119,6 +127,7 @@ impl<'a> Arbitrary<'a> for Numbers {
             compliance,
             modes,
             settings,
+            variant,
         })
     }
 }
@@ -204,6 +213,7 @@ fuzz_target!(|bytes: &[u8]| {
         compliance,
         modes,
         settings,
+        variant,
     } = numbers;
     let Ok(operator) = Operator::from_compliance(compliance) else {
         return;
@@ -217,7 +227,11 @@ fuzz_target!(|bytes: &[u8]| {
             Err(_) => return,
         }
     }
-    if let Ok(outcome) = solve(&problem, &settings) {
+    let outcome = match variant {
+        None => solve(&problem, &settings),
+        Some(variant) => variant.solve(&problem, &settings),
+    };
+    if let Ok(outcome) = outcome {
         witness(&problem, &outcome, settings.tolerance);
     }
 });

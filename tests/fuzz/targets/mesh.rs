@@ -69,6 +69,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
                 group: any(facets.get(1)),
             }),
             friction: 0.3,
+            rounded: None,
         }],
         ..Scene::default()
     }

@@ -1,12 +1,12 @@
 //! Half-steps to the last digit, for study: Newton on the natural map of one half-step alone.
 //!
 //! ```text
-//! (D6)  s = P(s − ρ u),   u = û + G t − (g₀, 0),      s: t_N or t_T, the other held
+//! (S5)  s = P(s − ρ u),   u = û + G t − (g₀, 0),      s: t_N or t_T, the other held
 //!       P: projection on s ≤ 0 in (H1), on the disc of radius −μ t_N in (H2)
 //! ```
 //!
 //! An interior-point method leaves the natural map at about the root of its tolerance. From there
-//! (D6) takes a few steps; they are kept as long as its residual falls.
+//! (S5) takes a few steps; they are kept as long as its residual falls.
 
 use std::ops::Range;
 
@@ -58,7 +58,7 @@ pub(super) fn friction(problem: &ContactProblem, reaction: &mut [f64]) {
     });
 }
 
-/// Newton on (D6) for the unknowns of the blocks; `project` gives P and its slope at a point, in a
+/// Newton on (S5) for the unknowns of the blocks; `project` gives P and its slope at a point, in a
 /// plane of which a block of one unknown uses the first axis.
 fn newton(
     problem: &ContactProblem,

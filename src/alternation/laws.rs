@@ -1,0 +1,149 @@
+//! What one contact does, and what its law says (D4), all scaled: `t/√ρ` and `√ρ (u − g)`.
+
+use std::ops::Range;
+
+use crate::problem::ContactProblem;
+
+/// A diagonal entry of G below this part of the largest is round-off.
+const NOTHING: f64 = f64::EPSILON;
+
+/// A contact's reaction and its displacement beyond what is free, normal first.
+pub(super) struct Local {
+    pub(super) reaction: [f64; 3],
+    pub(super) beyond: [f64; 3],
+    /// μ between scaled reactions.
+    pub(super) friction: f64,
+    /// Length of the step to the trial point: 1/(1 + σ).
+    pub(super) step: f64,
+}
+
+/// What a contact does, read off its trial point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum State {
+    Open,
+    Stick,
+    Slip {
+        direction: [f64; 2],
+        bound: f64,
+        /// γ, below one.
+        ratio: f64,
+    },
+}
+
+/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = 0`, a row per unknown.
+pub(super) struct Law {
+    pub(super) contact: usize,
+    pub(super) block: Range<usize>,
+    on_reaction: [[f64; 3]; 3],
+    on_displacement: [[f64; 3]; 3],
+}
+
+impl Local {
+    fn state(&self) -> State {
+        let trial = [0, 1, 2].map(|k| self.reaction[k] - self.step * self.beyond[k]);
+        if trial[0] >= 0.0 {
+            return State::Open;
+        }
+        let (size, bound) = (trial[1].hypot(trial[2]), -self.friction * trial[0]);
+        if self.friction > 0.0 && size <= bound {
+            return State::Stick;
+        }
+        let size = if size > 0.0 { size } else { 1.0 };
+        State::Slip {
+            direction: [trial[1] / size, trial[2] / size],
+            bound,
+            ratio: bound / size,
+        }
+    }
+
+    /// What the natural map leaves, per unknown, as roots of an energy.
+    pub(super) fn defect(&self) -> [f64; 3] {
+        let (t, w) = (self.reaction, self.beyond.map(|w| self.step * w));
+        let left = match self.state() {
+            State::Open => t,
+            State::Stick => w,
+            State::Slip {
+                direction, bound, ..
+            } => [
+                w[0],
+                t[1] - bound * direction[0],
+                t[2] - bound * direction[1],
+            ],
+        };
+        left.map(|left| left / self.step.sqrt())
+    }
+
+    /// The law of what a contact does; none if it is open.
+    pub(super) fn law(&self, contact: usize, block: Range<usize>) -> Option<Law> {
+        let (mut on_reaction, mut on_displacement) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
+        on_displacement[0][0] = 1.0;
+        match self.state() {
+            State::Open => return None,
+            State::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
+            State::Slip {
+                direction, ratio, ..
+            } => {
+                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let unit = if a == b { 1.0 } else { 0.0 };
+                    let m = ratio * (unit - direction[a] * direction[b]);
+                    on_reaction[1 + a][0] = self.friction * direction[a];
+                    on_reaction[1 + a][1 + b] = unit - m;
+                    on_displacement[1 + a][1 + b] = self.step * m;
+                }
+            }
+        }
+        Some(Law {
+            contact,
+            block,
+            on_reaction,
+            on_displacement,
+        })
+    }
+}
+
+impl Law {
+    /// Minus what a state leaves of the law.
+    pub(super) fn missing(&self, at: &Local) -> [f64; 3] {
+        [0, 1, 2].map(|row| {
+            let forces = dot(self.on_reaction[row], at.reaction);
+            -forces - dot(self.on_displacement[row], at.beyond)
+        })
+    }
+
+    /// Its rows for a unit of something that moves the contact, and that may be one of its own reactions.
+    pub(super) fn rows(&self, moved: [f64; 3], own: Option<usize>) -> [f64; 3] {
+        [0, 1, 2].map(|row| {
+            let force = own.map_or(0.0, |own| self.on_reaction[row][own]);
+            force + dot(self.on_displacement[row], moved)
+        })
+    }
+}
+
+/// √ρ: the root of a contact's own stiffness along its normal, and over its tangents; a contact that its own reaction
+/// does not move takes the largest.
+pub(super) fn roots(problem: &ContactProblem) -> Vec<f64> {
+    let g = problem.compliance();
+    let largest = (0..problem.unknowns()).fold(0.0_f64, |most, k| most.max(g[(k, k)]));
+    let mut roots = Vec::with_capacity(problem.unknowns());
+    for ends in problem.offsets().windows(2) {
+        let tangents = ends[0] + 1..ends[1];
+        let trace: f64 = tangents.clone().map(|k| g[(k, k)]).sum();
+        roots.push(g[(ends[0], ends[0])]);
+        roots.extend(tangents.clone().map(|_| trace / tangents.len() as f64));
+    }
+    let felt = roots.iter().copied().filter(|c| *c > NOTHING * largest);
+    let least = felt.reduce(f64::min).unwrap_or(1.0);
+    for root in &mut roots {
+        let compliance = if *root > NOTHING * largest {
+            *root
+        } else {
+            least
+        };
+        *root = compliance.sqrt().recip();
+    }
+    roots
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}

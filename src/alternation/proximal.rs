@@ -1,0 +1,182 @@
+//! Where a finish fails: a proximal point loop around whole Newton steps.
+//!
+//! ```text
+//! (D6)   t_k, α_k ← best state;  σ ← 1e-6
+//!        from t_k, α_k Newton steps (D4) under springs of softness σ that are anchored there (D5)
+//!        their residual fell to a tenth:   accept;  after few steps: σ ← σ/10
+//!        else:                             throw away, σ ← 10 σ
+//! ```
+//!
+//! Every subproblem is well posed: springs tell contacts apart that stand twice, and hold bodies that contact
+//! does not yet hold. At the end they are as good as gone, and where they are anchored no longer matters.
+//!
+//! Where nothing holds elastic bodies the springs do to the last: what they carry stays while they soften tenfold
+//! again and again, and the bodies move tenfold each time.
+
+use std::time::Instant;
+
+use super::finish::{Finish, Point, Springs};
+use super::iterate::Iterate;
+use super::run::Run;
+
+/// Softness of the first springs, and the largest that is tried.
+const SOFTNESS: (f64, f64) = (1e-6, 1e6);
+
+/// Springs that are as good as none.
+const LEAST: f64 = 1e-18;
+
+/// Change of the softness.
+const TENFOLD: f64 = 10.0;
+
+/// Newton steps on a subproblem at most, and how few let the springs soften.
+const STEPS: (usize, usize) = (12, 5);
+
+/// The residual of a subproblem that counts as solved, as a part of that where it began.
+const SETTLED: f64 = 0.1;
+
+/// Newton steps in all at most, and products of two numbers that they take: those of a minute or two.
+const STEPS_IN_ALL: usize = 600;
+const PRODUCTS: f64 = 1e12;
+
+/// What springs carry stands if it changes by less than this part, so many times on end; and nothing holds the
+/// bodies if they move farther then than so many times what any contact is away.
+const STANDS: (f64, usize) = (0.1, 3);
+const FAR: f64 = 100.0;
+
+impl Run<'_> {
+    /// (D6) from the best state.
+    pub(super) fn proximal_steps(&mut self) {
+        if self.is_solved() || self.failure.is_some() || self.is_over() {
+            return;
+        }
+        let start = Instant::now();
+        if let Some(mut finish) = self.finish.take() {
+            self.proximal_loop(&mut finish);
+            self.finish = Some(finish);
+        }
+        self.work.seconds.finish += start.elapsed().as_secs_f64();
+    }
+
+    fn proximal_loop(&mut self, finish: &mut Finish<'_>) {
+        let (mut softness, most) = (SOFTNESS.0, self.work.newton_steps + STEPS_IN_ALL);
+        let (mut products, mut stood) = (0.0, (0.0, 0));
+        let far = FAR * self.reach();
+        // Newton steps that failed may have left a state far off.
+        self.state = self.start.clone();
+        while (LEAST..=SOFTNESS.1).contains(&softness) && products < PRODUCTS {
+            // A last step once it is solved, for digits that the judge does not ask for.
+            let last = self.is_solved();
+            let (settled, steps) = settle(finish, &self.state, softness);
+            self.record.newton_steps += steps;
+            self.work.newton_steps += steps;
+            self.work.proximal_steps += 1;
+            products += steps as f64 * finish.products();
+            if self.work.newton_steps >= most || self.is_over() {
+                break;
+            }
+            let Some(point) = settled else {
+                softness *= TENFOLD;
+                continue;
+            };
+            let before = self.state.motion.clone();
+            self.state.motion = finish.moved(&before, &point.drift);
+            self.state.reaction = point.reaction;
+            self.judge();
+            if steps <= STEPS.1 {
+                softness /= TENFOLD;
+            }
+            stood = self.stood(stood);
+            if last || (stood.1 >= STANDS.1 && self.give_way(&before, far)) {
+                break;
+            }
+        }
+    }
+
+    /// What the springs carry, and how many times on end it stood.
+    fn stood(&self, (before, times): (f64, usize)) -> (f64, usize) {
+        let certificate = &self.state.verdict.certificate;
+        let left = certificate.equilibrium.scaled;
+        let kept = (left - before).abs() <= STANDS.0 * left;
+        let stands = kept && left > self.tolerance() && certificate.natural_map <= STANDS.0 * left;
+        (left, if stands { times + 1 } else { 0 })
+    }
+
+    /// Largest gap or slip, in metre.
+    fn reach(&self) -> f64 {
+        let mut reach = 0.0_f64;
+        for (contact, ends) in self.problem.offsets().windows(2).enumerate() {
+            let u = &self.start.verdict.displacement[ends[0]..ends[1]];
+            reach = reach.max((u[0] - self.problem.initial_gap()[contact]).abs());
+            reach = u[1..].iter().fold(reach, |reach, u| reach.max(u.abs()));
+        }
+        reach
+    }
+}
+
+/// The solution of a subproblem anchored at a state, if Newton steps lead there, and how many were taken.
+fn settle(finish: &mut Finish<'_>, anchor: &Iterate, softness: f64) -> (Option<Point>, usize) {
+    let springs = Springs {
+        softness,
+        anchor: &anchor.reaction,
+    };
+    let mut point = finish.point(anchor);
+    let wanted = SETTLED * finish.residual(&point, springs);
+    for steps in 1..=STEPS.0 {
+        let seen = point.displacement.clone();
+        let Some(next) = finish.step(&point, &seen, springs) else {
+            return (None, steps);
+        };
+        point = next;
+        if finish.residual(&point, springs) <= wanted {
+            return (Some(point), steps);
+        }
+    }
+    (None, STEPS.0)
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::{Mat, mat};
+
+    use crate::alternation::{Settings, Status, solve};
+    use crate::problem::{ContactProblem, Floating, Operator};
+
+    #[test]
+    fn contacts_that_stand_twice_are_told_apart_by_springs() {
+        // Two contacts on one spot: only the sum of their reactions is determined, −2.
+        let operator = Operator::from_compliance(mat![[1.0, 1.0], [1.0, 1.0]]).unwrap();
+        let (zero, free) = (vec![0.0; 2], vec![2.0; 2]);
+        let problem = ContactProblem::new(&[0, 0], zero.clone(), zero, free, operator).unwrap();
+        let found = solve(&problem, &Settings::default()).unwrap();
+        assert_eq!(found.status, Status::Certified);
+        assert!((found.reaction[0] + found.reaction[1] + 2.0).abs() < 1e-11);
+    }
+
+    /// A block between jaws that overlap it by half a metre, G = 1 m/N, pulled along them: N = ½, μ = ½.
+    fn clamped(pull: f64) -> ContactProblem {
+        let operator = Operator::from_compliance(Mat::identity(2, 2)).unwrap();
+        let problem =
+            ContactProblem::new(&[1], vec![0.5], vec![-0.5], vec![0.0; 2], operator).unwrap();
+        let floating = Floating::new(mat![[0.0], [1.0]], vec![pull]).unwrap();
+        problem.float(floating).unwrap()
+    }
+
+    #[test]
+    fn a_clamp_holds_up_to_its_friction() {
+        let found = solve(&clamped(0.25 - 1e-6), &Settings::default()).unwrap();
+        assert_eq!(found.status, Status::Certified);
+        assert!((found.reaction[0] + 0.5).abs() < 1e-12);
+        assert!((found.reaction[1] + 0.25 - 1e-6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_clamp_gives_way_beyond_though_rigid_jaws_would_hold() {
+        let found = solve(&clamped(0.3), &Settings::default()).unwrap();
+        assert_eq!(found.status, Status::NoEquilibrium);
+        let failure = found.failure.unwrap();
+        // It slides along its pull at unit speed, for want of 0.3 − μ N.
+        assert!(failure.elastic && failure.sliding == [0], "{failure:?}");
+        assert!((failure.motion[0] - 1.0).abs() < 1e-12 && (failure.missing - 0.05).abs() < 1e-9);
+    }
+}

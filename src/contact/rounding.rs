@@ -1,0 +1,304 @@
+//! The smooth surface that straight facets stand for.
+//!
+//! ```text
+//! (C18)  b = 4 s λ_1 λ_2,   s = L/2 tan(κ L/4)     b: from the facet out to the smooth surface
+//!        κ: of those at its two ends the smaller one; zero where their signs differ
+//!        κ at a node = turn of the facets there / mean of their lengths, positive where convex
+//! ```
+//!
+//! `s` is the sagitta of the arc of curvature κ over a chord that its facets turn by `κ L`.
+//! On triangles and quadrilaterals the s of all edges add up (`turning_edges`):
+//!
+//! ```text
+//!        b = Σ 4 s_ij λ_i λ_j                                         triangle
+//!        b = (4 s_ab (1−v) + 4 s_cd v) u(1−u) + (4 s_da (1−u) + 4 s_bc u) v(1−v)
+//! ```
+//!
+//! A mesh of straight facets is a polygon in or around the body that it was made for. Two of them that
+//! should fit depart from each other by up to the sum of their sagittas, which may be more than
+//! what they overlap or approach. Gaps are therefore measured between the smooth surfaces: what facets
+//! leave of them is taken off. Where the facets' own turns say that nothing is round, b is exactly zero:
+//! on flat faces, beside a kink between two of them, beside a fillet of much shorter facets; and at a corner, from which on a facet goes by its
+//! other end, as it does at the end of a surface. Facets whose middle nodes follow the curve are round
+//! already.
+
+use std::collections::HashMap;
+
+use nalgebra::Vector3;
+
+use super::turn::{CORNER, STRAIGHT, UNLIKE, is_straight, smaller, turn};
+use super::turning_edges::turning_edges;
+use crate::body::{Facet, Mesh};
+
+/// Part of a facet's length by which its middle node may leave the chord.
+const ON_CHORD: f64 = 1e-10;
+
+/// How far the smooth surface stands off a facet (C18).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Bulge {
+    /// Number of the facet's corners.
+    corners: usize,
+    /// 4 s of each of its edges in metre, from corner to corner; a line has one.
+    edges: [f64; 4],
+}
+
+impl Bulge {
+    /// `b` in metre where the functions of the corners have these values.
+    fn height(&self, hats: &[f64; 4]) -> f64 {
+        let [a, b, c, d] = *hats;
+        let [ab, bc, cd, da] = self.edges;
+        match self.corners {
+            2 => ab * a * b,
+            3 => ab * a * b + bc * b * c + cd * c * a,
+            _ => {
+                let (u, v) = (b + c, c + d);
+                let along = (ab * (1.0 - v) + cd * v) * u * (1.0 - u);
+                along + (da * (1.0 - u) + bc * u) * v * (1.0 - v)
+            }
+        }
+    }
+
+    /// The largest of `|b|` at its middle and at those of its edges, in metre.
+    fn largest(&self) -> f64 {
+        let share = 1.0 / self.corners as f64;
+        let middle: [f64; 4] = std::array::from_fn(|k| if k < self.corners { share } else { 0.0 });
+        let edges = self.edges.iter().map(|round| round / 4.0);
+        edges
+            .chain([self.height(&middle)])
+            .fold(0.0, |largest, b| b.abs().max(largest))
+    }
+}
+
+/// How far the smooth surface stands off each of some facets (C18).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Bulges {
+    /// Per facet, positive outwards.
+    of: Vec<Bulge>,
+    /// Gaps are measured from the smooth surface, and not from the facets.
+    rounded: bool,
+}
+
+impl Bulges {
+    /// Facets that stand for nothing but themselves.
+    pub(super) fn none(facets: usize) -> Self {
+        Self {
+            of: vec![Bulge::default(); facets],
+            rounded: false,
+        }
+    }
+
+    /// What is taken off a gap where facets leave `bulge` of it, in metre.
+    pub(super) fn taken(&self, bulge: f64) -> f64 {
+        if self.rounded { bulge } else { 0.0 }
+    }
+
+    /// `b` in metre at a point of a facet, where the functions of its corners have these values.
+    pub(super) fn height(&self, facet: usize, hats: &[f64; 4]) -> f64 {
+        self.of[facet].height(hats)
+    }
+
+    /// Number of those of some facets that are rounded, and the largest `|b|` in metre.
+    pub(super) fn rounded(&self, facets: &[usize]) -> (usize, f64) {
+        let sagittas = facets
+            .iter()
+            .map(|&facet| self.taken(self.of[facet].largest()));
+        let round = sagittas.filter(|sagitta| *sagitta > 0.0);
+        round.fold((0, 0.0), |(count, largest), s| (count + 1, s.max(largest)))
+    }
+}
+
+/// How the surface of a body turns at its nodes.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Turns {
+    /// κ in 1/m; none at corners.
+    curvature: HashMap<usize, Curvature>,
+    /// Of a solid: 4 s in metre of the edges that turn.
+    edges: HashMap<[usize; 2], f64>,
+}
+
+/// How a surface turns at a node.
+#[derive(Clone, Copy, Debug)]
+struct Curvature {
+    /// κ in 1/m.
+    value: f64,
+    /// Length of the shorter one of the facets there, in metre.
+    shorter: f64,
+}
+
+impl Turns {
+    /// Of the facets of a whole boundary in outward order.
+    pub(super) fn new(mesh: &Mesh, boundary: &[Facet]) -> Self {
+        let mut curvature = HashMap::new();
+        if mesh.dimension == 2 {
+            for (node, [before, after]) in joints(mesh, boundary) {
+                let turn = turn(before, after);
+                if turn.abs() < CORNER {
+                    let turn = if turn.abs() < STRAIGHT { 0.0 } else { turn };
+                    let [before, after] = [before.norm(), after.norm()];
+                    let at_node = Curvature {
+                        value: 2.0 * turn / (before + after),
+                        shorter: before.min(after),
+                    };
+                    curvature.insert(node, at_node);
+                }
+            }
+        }
+        let edges = match mesh.dimension {
+            2 => HashMap::new(),
+            _ => turning_edges(mesh, boundary),
+        };
+        Self { curvature, edges }
+    }
+
+    /// The bulges of facets of this boundary, which count in gaps or not.
+    pub(super) fn bulges(&self, mesh: &Mesh, facets: &[Facet], rounded: bool) -> Bulges {
+        Bulges {
+            of: facets.iter().map(|facet| self.bulge(mesh, facet)).collect(),
+            rounded,
+        }
+    }
+
+    fn bulge(&self, mesh: &Mesh, facet: &Facet) -> Bulge {
+        let corners = facet.corners(mesh.dimension);
+        let mut edges = [0.0; 4];
+        if let [start, end] = corners {
+            edges[0] = 4.0 * self.sagitta(mesh, facet, [*start, *end]);
+        } else if !self.edges.is_empty() && is_straight(mesh, facet) {
+            let next = corners.iter().cycle().skip(1);
+            for (edge, (from, to)) in edges.iter_mut().zip(corners.iter().zip(next)) {
+                *edge = self.edges.get(&[*from, *to]).copied().unwrap_or(0.0);
+            }
+        }
+        Bulge {
+            corners: corners.len(),
+            edges,
+        }
+    }
+
+    fn sagitta(&self, mesh: &Mesh, facet: &Facet, [start, end]: [usize; 2]) -> f64 {
+        let chord = span(mesh, start, end);
+        let on_chord = |node: &usize| {
+            let off = chord.cross(&span(mesh, start, *node)).norm() / chord.norm();
+            off <= ON_CHORD * chord.norm()
+        };
+        if !facet.nodes.iter().all(on_chord) {
+            return 0.0;
+        }
+        let ends = [start, end].map(|node| {
+            let found = self.curvature.get(&node)?;
+            let alike = chord.norm() <= UNLIKE * found.shorter;
+            Some(if alike { found.value } else { 0.0 })
+        });
+        0.5 * chord.norm() * (0.25 * smaller(ends) * chord.norm()).tan()
+    }
+}
+
+/// The nodes where one line ends and one begins, with both lines.
+fn joints(mesh: &Mesh, boundary: &[Facet]) -> impl Iterator<Item = (usize, [Vector3<f64>; 2])> {
+    let mut lines: HashMap<usize, [Vec<Vector3<f64>>; 2]> = HashMap::new();
+    for facet in boundary {
+        if let [start, end] = facet.corners(mesh.dimension) {
+            let line = span(mesh, *start, *end);
+            lines.entry(*end).or_default()[0].push(line);
+            lines.entry(*start).or_default()[1].push(line);
+        }
+    }
+    lines.into_iter().filter_map(|(node, lines)| match lines {
+        [before, after] if before.len() == 1 && after.len() == 1 => {
+            Some((node, [before[0], after[0]]))
+        }
+        _ => None,
+    })
+}
+
+fn span(mesh: &Mesh, from: usize, to: usize) -> Vector3<f64> {
+    Vector3::from(mesh.nodes[to]) - Vector3::from(mesh.nodes[from])
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+
+    /// Bulges of the lines through points, which go round the body against the clock.
+    fn bulges(points: &[[f64; 2]]) -> Vec<f64> {
+        let nodes = points.iter().map(|[x, y]| [*x, *y, 0.0]);
+        let mesh = Mesh::new(2, nodes.collect());
+        let lines: Vec<Facet> = (0..points.len())
+            .map(|k| Facet {
+                nodes: vec![k, (k + 1) % points.len()],
+            })
+            .collect();
+        Turns::new(&mesh, &lines)
+            .bulges(&mesh, &lines, true)
+            .of
+            .iter()
+            .map(|bulge| bulge.edges[0] / 4.0)
+            .collect()
+    }
+
+    #[test]
+    fn facets_of_a_circle_stand_off_it_by_their_sagitta() {
+        for facets in [16, 48] {
+            let half = std::f64::consts::PI / f64::from(facets);
+            let at = |k: i32| {
+                [
+                    (2.0 * half * f64::from(k)).cos(),
+                    (2.0 * half * f64::from(k)).sin(),
+                ]
+            };
+            let points: Vec<[f64; 2]> = (0..facets).map(at).collect();
+            for s in bulges(&points) {
+                assert!((s - (1.0 - half.cos())).abs() < 1e-14, "{s}");
+            }
+            // From inside the same circle is a bore.
+            let bore: Vec<[f64; 2]> = points.into_iter().rev().collect();
+            assert!(bulges(&bore).iter().all(|s| *s < 0.0));
+        }
+    }
+
+    #[test]
+    fn flat_faces_corners_and_kinks_between_flat_faces_stay() {
+        let square = [
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [2.0, 0.0],
+            [2.0, 2.0],
+            [1.0, 2.0],
+            [0.0, 2.0],
+        ];
+        assert!(bulges(&square).iter().all(|s| *s == 0.0));
+        // A roof of 0.2 rad on it.
+        let roof = [
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [2.0, 2.0],
+            [1.5, 2.05],
+            [1.0, 2.1],
+            [0.5, 2.05],
+            [0.0, 2.0],
+        ];
+        assert!(bulges(&roof).iter().all(|s| *s == 0.0));
+    }
+
+    #[test]
+    fn an_arc_goes_on_to_a_corner_and_ends_where_it_becomes_straight() {
+        // Half a disc on its diameter, then a bar with round ends.
+        let half = std::f64::consts::PI / 24.0;
+        let arc = |k: i32| [(half * f64::from(k)).cos(), (half * f64::from(k)).sin()];
+        let disc: Vec<[f64; 2]> = (0..=24).map(arc).collect();
+        let found = bulges(&disc);
+        assert!(
+            found[..24]
+                .iter()
+                .all(|s| (s - found[12]).abs() < 1e-15 && *s > 0.0)
+        );
+        assert_eq!(found[24], 0.0);
+        let mut bar = disc;
+        bar.insert(0, [1.0, -1.0]);
+        bar.push([-1.0, -1.0]);
+        let found = bulges(&bar);
+        // The straight side is one long facet; the arc's first one turns half as much where it begins.
+        assert!(found[0] == 0.0 && found[1] > 0.0 && found[1] < found[12]);
+    }
+}

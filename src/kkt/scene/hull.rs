@@ -1,0 +1,110 @@
+//! Which sums of given vectors with shares that are not negative come nearest to a vector.
+//!
+//! ```text
+//! min ‖Σ λ_k a_k − b‖²   s.t.  λ ≥ 0
+//! ```
+//!
+//! Lawson & Hanson, Solving Least Squares Problems (1974), ch. 23: the vector that goes furthest along
+//! the residual joins those in use; shares that would turn negative leave.
+
+use nalgebra::{DMatrix, DVector, Vector6};
+
+/// Part of the residual along which nothing more is gained.
+const ROUNDED: f64 = 1e-12;
+
+/// Vectors that join, at most.
+const JOINED: usize = 200;
+
+/// The distance from `sought` to the cone of `vectors`.
+pub(super) fn distance(vectors: &[Vector6<f64>], sought: Vector6<f64>) -> f64 {
+    let (mut used, mut shares) = (Vec::<usize>::new(), Vec::<f64>::new());
+    let mut rest = sought;
+    for _ in 0..JOINED {
+        let gains = vectors.iter().map(|vector| vector.dot(&rest));
+        let best = gains.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((next, gain)) = best else { break };
+        if gain <= ROUNDED * sought.norm() || used.contains(&next) {
+            break;
+        }
+        used.push(next);
+        shares.push(0.0);
+        settle(vectors, sought, &mut used, &mut shares);
+        let terms = used.iter().zip(&shares);
+        let now = sought
+            - terms
+                .map(|(&k, share)| vectors[k] * *share)
+                .sum::<Vector6<f64>>();
+        if now.norm() >= rest.norm() {
+            break;
+        }
+        rest = now;
+    }
+    rest.norm()
+}
+
+/// Least squares over the vectors in use, those with negative shares leaving.
+fn settle(
+    vectors: &[Vector6<f64>],
+    sought: Vector6<f64>,
+    used: &mut Vec<usize>,
+    shares: &mut Vec<f64>,
+) {
+    while !used.is_empty() {
+        let matrix = DMatrix::from_fn(6, used.len(), |row, k| vectors[used[k]][row]);
+        let right = DVector::from_column_slice(sought.as_slice());
+        let Ok(found) = matrix.svd(true, true).solve(&right, ROUNDED) else {
+            return;
+        };
+        // As far towards it as all shares stay positive.
+        let mut along = 1.0_f64;
+        for (share, goal) in shares.iter().zip(found.iter()) {
+            if *goal <= 0.0 {
+                along = along.min(share / (share - goal));
+            }
+        }
+        for (share, goal) in shares.iter_mut().zip(found.iter()) {
+            *share += along * (goal - *share);
+        }
+        if found.iter().all(|goal| *goal > 0.0) {
+            return;
+        }
+        let kept: Vec<bool> = shares
+            .iter()
+            .zip(found.iter())
+            .map(|(share, goal)| *goal > 0.0 || *share > ROUNDED)
+            .collect();
+        if kept.iter().all(|kept| *kept) {
+            return;
+        }
+        let mut keep = kept.iter();
+        used.retain(|_| keep.next().is_some_and(|kept| *kept));
+        let mut keep = kept.iter();
+        shares.retain(|_| keep.next().is_some_and(|kept| *kept));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vector(entries: [f64; 3]) -> Vector6<f64> {
+        Vector6::new(entries[0], entries[1], entries[2], 0.0, 0.0, 0.0)
+    }
+
+    #[test]
+    fn inside_a_cone_there_is_no_distance_and_outside_that_to_its_face() {
+        let cone = [
+            [1.0, 1.0, 1.0],
+            [1.0, -1.0, 1.0],
+            [-1.0, 1.0, 1.0],
+            [-1.0, -1.0, 1.0],
+        ];
+        let cone = cone.map(vector);
+        assert!(distance(&cone, vector([0.3, -0.9, 1.0])) < 1e-12);
+        assert!(distance(&cone, vector([1.0, 1.0, 1.0])) < 1e-12);
+        // The face x = z: (2, 0, 0) is √2 from (1, 0, 1).
+        assert!((distance(&cone, vector([2.0, 0.0, 0.0])) - 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((distance(&cone, vector([0.0, 0.0, -3.0])) - 3.0).abs() < 1e-12);
+        assert_eq!(distance(&[], vector([0.0, 4.0, 3.0])), 5.0);
+    }
+}

@@ -1,0 +1,103 @@
+//! Whether pressures and friction on what touches can have the resultant that a side receives.
+//!
+//! ```text
+//! (K14)  (Σ f, Σ (x − c) × f) = Σ_k λ_k (r_k, (x_k − c) × r_k),   λ ≥ 0
+//! ```
+//!
+//! with rays `r_k` of the friction cone at the samples around pressed contacts: in space those of an octagon
+//! around the disc. No pressure has its resultant beyond the end of what it acts on: a block whose weight
+//! lies beyond the edge of what it stands on topples.
+
+use nalgebra::{Vector3, Vector6};
+
+use super::forces::Forces;
+use super::hull::distance;
+use super::measure::Measure;
+use super::meeting::{Meeting, Sample};
+
+/// Directions of friction in space.
+const DIRECTIONS: usize = 8;
+
+/// Where a pair touches.
+pub(super) struct Touching<'a> {
+    pub(super) meeting: &'a Meeting,
+    /// Side that carries the contacts.
+    pub(super) side: usize,
+    /// Its faces around pressed contacts, which may be named several times.
+    pub(super) faces: Vec<usize>,
+    pub(super) friction: f64,
+}
+
+impl Touching<'_> {
+    /// How far the resultant of the first side is outside, in metre.
+    pub(super) fn reach(&self, forces: &Forces, part: f64, at: usize) -> Measure {
+        let force = Vector3::from(forces.sides[0].force);
+        let [_, noise] = forces.defect(part);
+        if force.norm() <= noise {
+            return Measure::default();
+        }
+        let (mut faces, meeting) = (self.faces.clone(), self.meeting);
+        faces.sort_unstable();
+        faces.dedup();
+        let on = |face: usize| meeting.on(self.side, face);
+        let mut numbers: Vec<usize> = faces.into_iter().flat_map(on).collect();
+        numbers.sort_unstable();
+        numbers.dedup();
+        let samples = || numbers.iter().map(|&number| &meeting.samples[number]);
+        let from = Vector3::from(forces.centre);
+        // Lengths in units of what touches, so that forces and moments are of one size.
+        let unit = samples().filter_map(|sample| Some((first(sample)? - from).norm()));
+        let unit = unit.fold(forces.reach * part, f64::max);
+        let moment = Vector3::from(forces.sides[0].moment);
+        let rays = samples().filter_map(|sample| {
+            let arm = (first(sample)? - from) / unit;
+            Some(
+                self.rays(sample)
+                    .into_iter()
+                    .map(move |ray| joined(ray, arm.cross(&ray))),
+            )
+        });
+        let rays: Vec<Vector6<f64>> = rays.flatten().collect();
+        let sought = joined(force, moment / unit);
+        let sagitta = samples()
+            .map(|sample| meeting.sagitta(sample))
+            .fold(0.0, f64::max);
+        let missed = distance(&rays, sought) / force.norm() * unit;
+        let rounded = (part.sqrt() + noise / force.norm()) * unit;
+        Measure::new(missed, rounded + 4.0 * sagitta, at)
+    }
+
+    /// The friction cone around the force on the first side.
+    fn rays(&self, sample: &Sample) -> Vec<Vector3<f64>> {
+        let normal = -sample.towards;
+        if self.friction == 0.0 {
+            return vec![normal];
+        }
+        let plane = self.meeting.skins.iter().all(|skin| skin.dimension == 2);
+        if plane {
+            let tangent = normal.cross(&Vector3::z()) * self.friction;
+            return vec![normal + tangent, normal - tangent];
+        }
+        let mut least = Vector3::zeros();
+        least[normal.abs().imin()] = 1.0;
+        let first = normal.cross(&least).normalize();
+        let second = normal.cross(&first);
+        let half = std::f64::consts::PI / DIRECTIONS as f64;
+        let radius = self.friction / half.cos();
+        (0..DIRECTIONS)
+            .map(|k| {
+                let (sin, cos) = (2.0 * half * k as f64).sin_cos();
+                normal + (first * cos + second * sin) * radius
+            })
+            .collect()
+    }
+}
+
+/// The point of the first side.
+fn first(sample: &Sample) -> Option<Vector3<f64>> {
+    sample.places[0].as_ref().map(|place| place.position)
+}
+
+fn joined(force: Vector3<f64>, moment: Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+}

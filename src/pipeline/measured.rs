@@ -1,0 +1,86 @@
+//! What the judge finds of the bodies themselves, and the status that is left of a solved problem.
+
+use crate::alternation::{Outcome, Shortfall, Status};
+use crate::body::Body;
+use crate::condensation::Condensed;
+use crate::error::Error;
+use crate::kkt;
+use crate::kkt::{Balance, BodyState, PairFit, SceneGeometry, Surroundings, Worst};
+
+/// Part of the largest displacement by which contacts of recovered bodies may move otherwise than the
+/// condensed problem says.
+const FOLLOWED: f64 = 1e-6;
+
+/// What acts on the contact pairs beside loads and supports.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Acting {
+    /// Motion of the obstacle per pair, in metre; missing ones stand still.
+    pub obstacles: Vec<[f64; 3]>,
+    /// What is added to all gaps of a pair, in metre; missing ones are zero.
+    pub openings: Vec<f64>,
+}
+
+/// Recovered bodies, measured.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Equilibrium of each whole body.
+    pub balances: Vec<Balance>,
+    /// How far the bodies are from the condensed problem at the contacts.
+    pub departure: Worst,
+    /// Whether the sides of each pair are in the state that is reported.
+    pub fits: Vec<PairFit>,
+}
+
+impl Measured {
+    /// Measures the displacements, in metre per body and unknown, that were recovered from an outcome.
+    ///
+    /// # Errors
+    ///
+    /// Parts that do not belong together.
+    pub fn new(
+        bodies: &[Body],
+        condensed: &Condensed,
+        geometry: &SceneGeometry,
+        acting: &Acting,
+        (outcome, displacements): (&Outcome, &[Vec<f64>]),
+    ) -> Result<Self, Error> {
+        let states = BodyState::of_bodies(bodies, condensed, &outcome.reaction, displacements);
+        let problem = condensed.problem();
+        Ok(Self {
+            balances: states.iter().map(kkt::balance).collect::<Result<_, _>>()?,
+            departure: kkt::surface_departure(
+                bodies,
+                displacements,
+                condensed.surface(),
+                problem,
+                &problem.total_displacement(&outcome.verdict.displacement),
+            )?,
+            fits: geometry.fit(
+                &states,
+                &Surroundings {
+                    obstacles: &acting.obstacles,
+                    openings: &acting.openings,
+                    residual: outcome.verdict.certificate.residual(),
+                },
+            )?,
+        })
+    }
+
+    /// How the solve ended: what the bodies are not in has no certificate.
+    #[must_use]
+    pub fn status(&self, outcome: &Outcome) -> (Status, Option<Shortfall>) {
+        if outcome.status != Status::Certified {
+            return (outcome.status, outcome.shortfall);
+        }
+        if let Some(body) = self.balances.iter().position(|balance| !balance.holds()) {
+            let part = self.balances[body].equilibrium.scaled;
+            let shortfall = Shortfall::OutOfBalance { body, part };
+            return (Status::NotConverged, Some(shortfall));
+        }
+        let follows = self.departure.scaled <= FOLLOWED;
+        match follows && self.fits.iter().all(|fit| fit.fault().is_none()) {
+            true => (Status::Certified, None),
+            false => (Status::CouplingFault, None),
+        }
+    }
+}
