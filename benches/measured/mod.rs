@@ -85,6 +85,7 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
             obstacles: &[],
             openings: &[],
             residual: outcome.verdict.certificate.residual(),
+            departure: 0.0,
         },
     )?;
     let judging = judging.elapsed().as_secs_f64();

@@ -26,6 +26,16 @@ pub struct Outcome {
     pub work: Work,
 }
 
+impl Outcome {
+    /// This one, with what led to the one that it goes on from.
+    pub(crate) fn after(mut self, before: Self) -> Self {
+        self.history.splice(0..0, before.history);
+        self.work = before.work.and(self.work);
+        self.condition = self.condition.or(before.condition);
+        self
+    }
+}
+
 /// A rigid motion that no contact resists while the load works on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
@@ -144,6 +154,34 @@ pub struct Work {
     pub path_changes: usize,
     /// Seconds of prediction, half-steps, finish, judge.
     pub seconds: Seconds,
+}
+
+impl Work {
+    /// What both took.
+    fn and(self, more: Self) -> Self {
+        Self {
+            passes: self.passes + more.passes,
+            sweeps: self.sweeps + more.sweeps,
+            coulomb_programs: self.coulomb_programs + more.coulomb_programs,
+            normal_programs: self.normal_programs + more.normal_programs,
+            friction_programs: self.friction_programs + more.friction_programs,
+            cone_iterations: self.cone_iterations + more.cone_iterations,
+            friction_program_contacts: self
+                .friction_program_contacts
+                .max(more.friction_program_contacts),
+            newton_steps: self.newton_steps + more.newton_steps,
+            proximal_steps: self.proximal_steps + more.proximal_steps,
+            path_changes: self.path_changes + more.path_changes,
+            seconds: Seconds {
+                predict: self.seconds.predict + more.seconds.predict,
+                coulomb: self.seconds.coulomb + more.seconds.coulomb,
+                normal: self.seconds.normal + more.seconds.normal,
+                friction: self.seconds.friction + more.seconds.friction,
+                finish: self.seconds.finish + more.seconds.finish,
+                judge: self.seconds.judge + more.seconds.judge,
+            },
+        }
+    }
 }
 
 /// Wall time by stage of the outer loop, in second.

@@ -22,6 +22,7 @@
 mod anderson;
 mod condition;
 mod contraction;
+mod felt;
 mod finish;
 mod float;
 mod gauss_seidel;
@@ -48,6 +49,7 @@ pub use starts::other_starts;
 
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;
+use felt::on_felt_motions;
 use run::Run;
 
 /// Solves a condensed contact problem.
@@ -57,7 +59,7 @@ use run::Run;
 /// Settings outside their range.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
     settings.validate()?;
-    Ok(run(Run::new(problem, settings)))
+    on_felt_motions(problem, |problem, _| Ok(run(Run::new(problem, settings))))
 }
 
 /// Solves a condensed contact problem from a state that is likely near: that of the load step
@@ -75,7 +77,11 @@ pub fn solve_from(
     reaction: &[f64],
     motion: &[f64],
 ) -> Result<Outcome, Error> {
-    Ok(run(begun(problem, settings, (reaction, motion), None)?))
+    check_length("motion", problem.free_modes(), motion.len())?;
+    on_felt_motions(problem, |problem, felt| {
+        let state = (reaction, &felt(motion)[..]);
+        Ok(run(begun(problem, settings, state, None)?))
+    })
 }
 
 /// Newton steps on the laws from a state (D4), and nothing else: what a sweep for study ends with.
@@ -89,7 +95,11 @@ pub fn finish(
     reaction: &[f64],
     motion: &[f64],
 ) -> Result<Outcome, Error> {
-    Ok(begun(problem, settings, (reaction, motion), None)?.into_outcome())
+    check_length("motion", problem.free_modes(), motion.len())?;
+    on_felt_motions(problem, |problem, felt| {
+        let state = (reaction, &felt(motion)[..]);
+        Ok(begun(problem, settings, state, None)?.into_outcome())
+    })
 }
 
 /// Solves a condensed contact problem from a solved neighbour: the same contacts under a little
@@ -110,8 +120,11 @@ pub fn solve_near(
     let displacement = &near.verdict.displacement;
     check_length("displacement", problem.unknowns(), displacement.len())?;
     check_finite("displacement", displacement)?;
-    let state = (&near.reaction[..], &near.motion[..]);
-    Ok(run(begun(problem, settings, state, Some(displacement))?))
+    check_length("motion", problem.free_modes(), near.motion.len())?;
+    on_felt_motions(problem, |problem, felt| {
+        let state = (&near.reaction[..], &felt(&near.motion)[..]);
+        Ok(run(begun(problem, settings, state, Some(displacement))?))
+    })
 }
 
 /// A solve that begins from a state, after a first finish.
@@ -123,7 +136,6 @@ fn begun<'a>(
 ) -> Result<Run<'a>, Error> {
     settings.validate()?;
     check_length("reaction", problem.unknowns(), reaction.len())?;
-    check_length("motion", problem.free_modes(), motion.len())?;
     check_finite("reaction", reaction)?;
     check_finite("motion", motion)?;
     let mut run = Run::new(problem, settings);

@@ -10,6 +10,7 @@ use super::PartMotion;
 use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
+use super::load_case::Action;
 use super::rigid_bodies::{floating, part_motions};
 use super::room::dense_bytes;
 use super::supported::{OfInterface, SupportedBody};
@@ -181,7 +182,12 @@ fn join(
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
     let mut free_displacement = vec![0.0; unknowns];
     for (interface, body) in interfaces.iter().zip(bodies) {
-        interface.add_displacement(&body.action, &mut free_displacement);
+        let Action {
+            prescribed,
+            free_displacement: of_body,
+            ..
+        } = &body.action;
+        interface.add_displacement(prescribed, of_body, &mut free_displacement);
     }
     let mut operators = of_interfaces.into_iter().map(OfInterface::operator);
     let operator = match (interfaces, operators.next().transpose()?) {

@@ -20,7 +20,7 @@ use super::ordering::Ordering;
 /// A body, the factor that joins it to its interface, and what acts on it; copies share the factor.
 #[derive(Clone, Debug)]
 pub struct CondensedBody {
-    factored: Arc<FactoredBody>,
+    pub(super) factored: Arc<FactoredBody>,
     pub(super) action: Action,
 }
 

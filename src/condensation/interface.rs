@@ -15,7 +15,6 @@ use std::collections::BTreeMap;
 use faer::Mat;
 
 use super::columns::BorderRow;
-use super::load_case::Action;
 use super::local_axes::InterfaceNode;
 use crate::contact::{ContactNode, ContactSurface};
 
@@ -135,20 +134,23 @@ impl Interface {
         self.rows.len() == self.unknowns && rows.all(|(i, row)| *row == [(i, 1.0)])
     }
 
-    /// Adds `B_k v̂_k + given` (C11) for what acts on the body, in metre.
-    pub(super) fn add_displacement(&self, action: &Action, displacement: &mut [f64]) {
+    /// Adds `B_k v_k + given` (C11) for displacements of the body's interface unknowns and given ones per degree
+    /// of freedom, in metre.
+    pub(super) fn add_displacement(
+        &self,
+        prescribed: &[Option<f64>],
+        of_body: &[f64],
+        displacement: &mut [f64],
+    ) {
         for (u, (row, given)) in displacement
             .iter_mut()
             .zip(self.rows.iter().zip(&self.given))
         {
             let given = given.iter();
             *u += given
-                .map(|&(dof, b)| b * action.prescribed[dof].unwrap_or(0.0))
+                .map(|&(dof, b)| b * prescribed[dof].unwrap_or(0.0))
                 .sum::<f64>()
-                + row
-                    .iter()
-                    .map(|&(k, b)| b * action.free_displacement[k])
-                    .sum::<f64>();
+                + row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
         }
     }
 

@@ -39,7 +39,7 @@ impl Condensed {
         check_length("bodies", self.bodies.len(), actions.len())?;
         let mut free = vec![0.0; self.problem.unknowns()];
         for (action, interface) in actions.iter().zip(self.interfaces.iter()) {
-            interface.add_displacement(action, &mut free);
+            interface.add_displacement(&action.prescribed, &action.free_displacement, &mut free);
         }
         let mut problem = self.problem.step(free, self.reference(obstacles, slip))?;
         if let Some(floating) = problem.floating() {

@@ -11,6 +11,10 @@ use crate::kkt::{Balance, BodyState, PairFit, SceneGeometry, Surroundings, Worst
 /// condensed problem says.
 const FOLLOWED: f64 = 1e-6;
 
+/// Part of the largest displacement without contact forces that is round-off: what a slender body would move by is
+/// many times what it does.
+const ROUNDED: f64 = 16.0 * f64::EPSILON;
+
 /// What acts on the contact pairs beside loads and supports.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Acting {
@@ -27,6 +31,8 @@ pub struct Measured {
     pub balances: Vec<Balance>,
     /// How far the bodies are from the condensed problem at the contacts.
     pub departure: Worst,
+    /// Whether that is round-off.
+    follows: bool,
     /// Whether the sides of each pair are in the state that is reported.
     pub fits: Vec<PairFit>,
 }
@@ -46,21 +52,28 @@ impl Measured {
     ) -> Result<Self, Error> {
         let states = BodyState::of_bodies(bodies, condensed, &outcome.reaction, displacements);
         let problem = condensed.problem();
+        let departure = kkt::surface_departure(
+            bodies,
+            displacements,
+            condensed.surface(),
+            problem,
+            &problem.total_displacement(&outcome.verdict.displacement),
+        )?;
+        let free = problem.free_displacement().iter();
+        let free = free.fold(0.0, |most: f64, u| most.max(u.abs()));
+        let rounding = geometry.rounding().max(ROUNDED * free);
+        let follows = departure.scaled <= FOLLOWED || departure.value <= rounding;
         Ok(Self {
             balances: states.iter().map(kkt::balance).collect::<Result<_, _>>()?,
-            departure: kkt::surface_departure(
-                bodies,
-                displacements,
-                condensed.surface(),
-                problem,
-                &problem.total_displacement(&outcome.verdict.displacement),
-            )?,
+            departure,
+            follows,
             fits: geometry.fit(
                 &states,
                 &Surroundings {
                     obstacles: &acting.obstacles,
                     openings: &acting.openings,
                     residual: outcome.verdict.certificate.residual(),
+                    departure: if follows { departure.value } else { 0.0 },
                 },
             )?,
         })
@@ -77,8 +90,7 @@ impl Measured {
             let shortfall = Shortfall::OutOfBalance { body, part };
             return (Status::NotConverged, Some(shortfall));
         }
-        let follows = self.departure.scaled <= FOLLOWED;
-        match follows && self.fits.iter().all(|fit| fit.fault().is_none()) {
+        match self.follows && self.fits.iter().all(|fit| fit.fault().is_none()) {
             true => (Status::Certified, None),
             false => (Status::CouplingFault, None),
         }

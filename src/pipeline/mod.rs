@@ -3,6 +3,7 @@
 
 mod cases;
 mod check;
+mod corrected;
 mod half_space;
 mod halving;
 mod limit;
@@ -84,10 +85,9 @@ impl Setup {
     }
 
     /// Recovers the bodies of a solved problem, and measures them.
-    fn recover(self, outcome: Outcome) -> Result<Solution, Error> {
+    fn recover(mut self, outcome: Outcome) -> Result<Solution, Error> {
         let start = Instant::now();
-        let condensed = &self.condensed;
-        let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
+        let (outcome, displacements) = self.displacements(outcome)?;
         let seconds = start.elapsed().as_secs_f64();
         let mut solution = self.measure(outcome, displacements)?;
         solution.recovery_seconds += seconds;

@@ -91,15 +91,15 @@ impl<'a> Course<'a> {
     /// Solves the state at an instant from an earlier one; the bodies stay under what acts then.
     pub(super) fn solve(&mut self, from: &State, at: f64) -> Result<Reached, Error> {
         let obstacles = self.act(at, &from.slip)?;
-        let setup = &self.setup;
-        let (condensed, settings) = (&setup.condensed, &setup.settings);
-        let problem = condensed.problem();
+        let settings = &self.setup.settings;
+        let problem = self.setup.condensed.problem();
         let outcome = match from.account {
             None => alternation::solve(problem, settings)?,
             Some(_) => alternation::solve_from(problem, settings, &from.reaction, &from.motion)?,
         };
-        let displacement = &outcome.verdict.displacement;
-        let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
+        let (outcome, displacements) = self.setup.displacements(outcome)?;
+        let (setup, displacement) = (&self.setup, &outcome.verdict.displacement);
+        let (condensed, problem) = (&setup.condensed, setup.condensed.problem());
         let account = Account::new(&setup.body_states(&outcome.reaction, &displacements))?;
         let at_rest = match from.account {
             None => Some(account.at_rest()),

@@ -9,7 +9,7 @@
 //!
 //! | key | content |
 //! |---|---|
-//! | `status` | `certified`, `not_converged`, `no_equilibrium`, or `coupling_fault`: the contact problem is solved, but forces, distances, weights or areas of the bodies themselves are off by more than rounding and mesh explain |
+//! | `status` | `certified`, `not_converged`, `no_equilibrium`, or `coupling_fault`: the contact problem is solved, but forces, distances or weights of the bodies themselves are off by more than rounding and mesh explain |
 //! | `reason`, `advice` | with `not_converged`: sweep limit, stall, cone solver, ill-conditioned, a body out of balance or round-off, and what to do |
 //! | `failure` | with `no_equilibrium`: which body moves how, what slides or opens, the force that is missing |
 //! | `certificate` | natural-map residual, every law's worst violation and where, bipotential gap; per body the balance of forces and moments |

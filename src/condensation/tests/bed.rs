@@ -9,6 +9,7 @@ use crate::condensation::CondensationWork;
 use crate::condensation::condensed_body::CondensedBody;
 use crate::condensation::grounding::Grounding;
 use crate::condensation::interface::Interface;
+use crate::condensation::load_case::Action;
 use crate::condensation::supported::SupportedBody;
 use crate::contact::frame::Stance;
 use crate::contact::{ContactNode, ContactSurface};
@@ -130,7 +131,12 @@ impl Bed {
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
         let (count, unknowns) = (tangents.len(), body.action.free_displacement.len());
         let mut free = vec![0.0; unknowns];
-        interface.add_displacement(&body.action, &mut free);
+        let Action {
+            prescribed,
+            free_displacement,
+            ..
+        } = &body.action;
+        interface.add_displacement(prescribed, free_displacement, &mut free);
         let operator = of_interface.operator()?;
         let problem = ContactProblem::new(
             &tangents,

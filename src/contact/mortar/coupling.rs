@@ -21,6 +21,10 @@ use crate::body::Facet;
 use crate::body::{Mesh, Model};
 use crate::error::{Error, check_finite};
 
+/// Part of its farthest coordinate that any node counts as away, so that round-off of coordinates is none of a
+/// gap's direction.
+const COORDINATE: f64 = 1e-5;
+
 /// Covered share of a node's tributary area below which the node is no contact.
 const VANISHING: f64 = 1e-12;
 
@@ -247,7 +251,7 @@ impl MortarNode {
     ) -> (Vector3<f64>, f64) {
         align(&mut self.opposite, &mesh2.nodes, x.into(), normal, still);
         clear(&mut self.opposite);
-        let (mut gap, mut size) = (Vector3::zeros(), 0.0_f64);
+        let (mut gap, mut size) = (Vector3::zeros(), COORDINATE * x.amax());
         for (k, weight) in &self.opposite {
             let away = Vector3::from(mesh2.nodes[*k]) - x;
             gap += away * *weight;

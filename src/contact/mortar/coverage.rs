@@ -106,7 +106,7 @@ impl<'a> Coverage<'a> {
             let cover = opposite.cover(&view, &outline, |shape| {
                 one.bulges.height(piece.number, &piece.hats(shape))
             });
-            let enclosed = |span: &Span| overlaps.encloses(span);
+            let enclosed = |span: &Span| overlaps.encloses(span, depth);
             if let Some(span) = cover.behind.filter(enclosed) {
                 return Err(Error::Overlap {
                     place: place.to_owned(),

@@ -6,7 +6,9 @@
 //! ```
 //!
 //! `w` counts how often the mesh covers `x`. Half way between the sides, bodies that overlap
-//! are both there; below a thin body that lies on the other one only one of them is.
+//! are both there; below a thin body that lies on the other one only one of them is. Where they are both
+//! there, but not to either side of the span, they are in each other across it: what is a fit seen from
+//! their tops is none of their walls.
 //! Solid angle of a triangle: van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125–126.
 
 use std::f64::consts::PI;
@@ -20,6 +22,9 @@ use crate::body::{Facet, Mesh};
 
 /// Both bodies are there: one and one, less what round-off may take.
 const BOTH: f64 = 1.5;
+
+/// Directions across a span in space.
+const DIRECTIONS: u32 = 8;
 
 /// The two meshes of a pair; one mesh where a body meets itself.
 pub(super) struct Overlaps<'a> {
@@ -42,17 +47,34 @@ impl<'a> Overlaps<'a> {
         }
     }
 
-    /// The middle of the span is inside of both bodies, or twice inside of the one.
-    pub(super) fn encloses(&self, span: &Span) -> bool {
+    /// The middle of the span, and all around it up to half of `depth` in metre, is inside of both bodies, or twice
+    /// inside of the one.
+    pub(super) fn encloses(&self, span: &Span, depth: f64) -> bool {
         let middle = (span.from + span.to) / 2.0;
-        let near = |solid: &Solid<'_>| solid.bounds.contains(middle.into());
-        self.solids.iter().all(near)
-            && self
-                .solids
-                .iter()
-                .map(|s| s.times_inside(middle))
-                .sum::<f64>()
-                > BOTH
+        let mut around = self.across(span).map(|way| middle + way * (0.5 * depth));
+        self.both(middle) && around.all(|point| self.both(point))
+    }
+
+    fn both(&self, point: Vector3<f64>) -> bool {
+        let near = |solid: &Solid<'_>| solid.bounds.contains(point.into());
+        let times = || self.solids.iter().map(|s| s.times_inside(point));
+        self.solids.iter().all(near) && times().sum::<f64>() > BOTH
+    }
+
+    /// Unit vectors across the span, evenly around it.
+    fn across(&self, span: &Span) -> impl Iterator<Item = Vector3<f64>> + use<> {
+        let along = (span.to - span.from).normalize();
+        let plane = self.solids.iter().all(|solid| solid.mesh.dimension == 2);
+        let mut least = Vector3::zeros();
+        least[if plane { 2 } else { along.abs().imin() }] = 1.0;
+        let first = along.cross(&least).normalize();
+        let second = along.cross(&first);
+        let count = if plane { 2 } else { DIRECTIONS };
+        (0..count).map(move |k| {
+            let (sin, cos) = (2.0 * PI * f64::from(k) / f64::from(count)).sin_cos();
+            // In the plane, nothing is across but there and back.
+            first * cos + second * if plane { 0.0 } else { sin }
+        })
     }
 }
 
@@ -149,9 +171,24 @@ mod tests {
                     ) = (2.0, 0.0);
                     span.from *= 0.9;
                 }
-                let found = Overlaps::new(&upper, &lower).encloses(&span);
+                let found = Overlaps::new(&upper, &lower).encloses(&span, 0.1);
                 assert_eq!(found, expected, "{kind:?} {shift}");
             }
+        }
+    }
+
+    #[test]
+    fn walls_of_bodies_that_fit_by_little_are_in_nothing() {
+        for kind in CellKind::LINEAR {
+            let [lower, upper] = blocks(kind, 0.99);
+            let mut span = back(kind.dimension(), 0.99);
+            // From one wall of the upper one to the other of the lower one, through what they share.
+            let up = kind.dimension() - 1;
+            (span.from[up], span.to[up]) = (0.995, 0.995);
+            (span.from[0], span.to[0]) = (1.0, 0.0);
+            let overlaps = Overlaps::new(&upper, &lower);
+            assert!(!overlaps.encloses(&span, 0.1), "{kind:?}");
+            assert!(overlaps.encloses(&span, 0.005), "{kind:?}");
         }
     }
 
@@ -166,8 +203,11 @@ mod tests {
                 body.push_cell(kind, &nodes);
             }
             let span = back(kind.dimension(), 0.7);
-            assert!(Overlaps::new(&body, &body).encloses(&span), "{kind:?}");
-            assert!(!Overlaps::new(&upper, &upper).encloses(&span), "{kind:?}");
+            assert!(Overlaps::new(&body, &body).encloses(&span, 0.1), "{kind:?}");
+            assert!(
+                !Overlaps::new(&upper, &upper).encloses(&span, 0.1),
+                "{kind:?}"
+            );
         }
     }
 }

@@ -84,7 +84,8 @@ impl Nearby {
     pub(super) fn overlap(&self, rounded: f64, contact: usize) -> Measure {
         let depth = (-self.gap.low).max(0.0);
         let varied = (self.gap.high - self.gap.low).max(0.0);
-        Measure::new(depth, self.sagitta + varied + rounded, contact)
+        let explained = self.sagitta + (1.0 + OVERSHOOT) * varied + rounded;
+        Measure::new(depth, explained, contact)
     }
 
     /// How far from the other side something presses.

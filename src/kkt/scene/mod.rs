@@ -68,6 +68,8 @@ pub struct Surroundings<'a> {
     pub openings: &'a [f64],
     /// The residual that the laws were solved to.
     pub residual: f64,
+    /// How far the bodies are from the contact problem at the contacts, in metre.
+    pub departure: f64,
 }
 
 /// (K11) to (K14) of one pair.
@@ -145,6 +147,12 @@ impl SceneGeometry {
         })
     }
 
+    /// What rounding of coordinates leaves of a distance, in metre.
+    #[must_use]
+    pub fn rounding(&self) -> f64 {
+        COORDINATE * self.extent
+    }
+
     /// Measures (K11) to (K14), pair by pair.
     ///
     /// # Errors
@@ -183,7 +191,7 @@ impl SceneGeometry {
         let displacements: Vec<&[f64]> = states.iter().map(|state| state.displacement).collect();
         let lengths = displacements.iter();
         let motion = lengths.flat_map(|u| nodal_lengths(u, state.dimension()));
-        let rounded = part * motion.fold(0.0, f64::max) + COORDINATE * self.extent;
+        let rounded = part * motion.fold(0.0, f64::max) + self.rounding() + surroundings.departure;
         let opening = surroundings.openings.get(pair).copied().unwrap_or_default();
         let moved = surroundings
             .obstacles
