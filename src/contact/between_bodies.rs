@@ -69,16 +69,17 @@ pub(super) fn between_surfaces(
     }
 }
 
-/// The surface of a side, with what its facets stand for.
+/// The surface of a side, with what its facets stand for and where the body goes on.
 fn surface<'a>(
     scene: &Bodies<'a>,
     pair: &ContactPair,
     side: &'a Side,
     place: &str,
 ) -> Result<Surface<'a>, Error> {
-    let bulges = scene.boundaries[side.body].bulges(&side.facets, pair.rounded);
+    let boundary = &scene.boundaries[side.body];
+    let bulges = boundary.bulges(&side.facets, pair.rounded);
     let surface = Surface::new(&scene.bodies[side.body].mesh, &side.facets, place)?;
-    Ok(surface.with(bulges))
+    Ok(surface.with(bulges, boundary.flanks(&side.facets)))
 }
 
 /// A body of revolution meets only bodies of revolution.
@@ -149,7 +150,7 @@ fn contacts(
             None => Stance::Held,
         });
     }
-    coupled.lift();
+    coupled.lift(&body.mesh);
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
     for (node, stance) in coupled.nodes.into_iter().zip(stances) {
         let Stance::Free { frame, kept } = stance else {

@@ -21,7 +21,7 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::lift::lifts;
 use super::rounding::Bulges;
@@ -99,7 +99,7 @@ pub(super) fn footings(
             }
         }
     }
-    Ok(gathered.close())
+    Ok(gathered.close(body))
 }
 
 /// `D M⁻¹` of a facet (C16); one where it has no area, as on an axis.
@@ -129,15 +129,18 @@ struct Gathered {
 
 impl Gathered {
     /// The footings with an area, their gaps bounded from below; on linear facets gaps are no means.
-    fn close(self) -> Vec<Footing> {
+    fn close(self, body: &Body) -> Vec<Footing> {
         let mut closed: Vec<Footing> = self.footings.into_iter().map(Footing::close).collect();
-        let bounds = closed
+        let own = closed
             .iter()
             .map(|footing| match footing.least.is_finite() {
-                true => (footing.gap, footing.least),
-                false => (footing.gap, footing.gap),
+                true => (footing.least - footing.gap).max(0.0),
+                false => 0.0,
             });
-        let lifts = lifts(bounds, &self.patches);
+        let at = closed
+            .iter()
+            .map(|footing| Vector3::from(body.mesh.nodes[footing.node]));
+        let lifts = lifts(own.collect(), &at.collect::<Vec<_>>(), &self.patches);
         for (footing, lift) in closed.iter_mut().zip(lifts) {
             footing.gap += lift;
         }

@@ -63,6 +63,33 @@ impl<'a> Boundary<'a> {
         turns.bulges(mesh, facets, rounded)
     }
 
+    /// Where some lines of the boundary end, the direction in which the boundary goes on from there, in
+    /// metre; none of faces.
+    pub(super) fn flanks(&self, facets: &[Facet]) -> HashMap<usize, Vector3<f64>> {
+        let mesh = &self.body.mesh;
+        if mesh.dimension != 2 {
+            return HashMap::new();
+        }
+        let mut reached: HashMap<usize, usize> = HashMap::new();
+        for &node in facets.iter().flat_map(|facet| facet.corners(2)) {
+            *reached.entry(node).or_default() += 1;
+        }
+        let within: HashSet<Vec<usize>> = facets.iter().map(key).collect();
+        let beyond = self.facets.iter().filter(|at| !within.contains(&key(at)));
+        let mut flanks: HashMap<usize, Vector3<f64>> = HashMap::new();
+        for facet in beyond {
+            let ends = facet.corners(2).iter();
+            for &node in ends.filter(|node| reached.get(node) == Some(&1)) {
+                let from = Vector3::from(mesh.nodes[node]);
+                let others = facet.nodes.iter().filter(|other| **other != node);
+                let ways = others.map(|&other| Vector3::from(mesh.nodes[other]) - from);
+                let nearest = ways.min_by(|a, b| a.norm().total_cmp(&b.norm()));
+                flanks.extend(nearest.map(|way| (node, way)));
+            }
+        }
+        flanks
+    }
+
     /// Facets of the boundary in outward order, each once.
     pub(super) fn outward(&self, facets: &[Facet], place: &str) -> Result<Vec<Facet>, Error> {
         let mut seen = HashSet::new();

@@ -97,6 +97,11 @@ impl Bulges {
         self.of[facet].height(hats)
     }
 
+    /// Whether the smooth surface stands off a facet.
+    pub(super) fn is_round(&self, facet: usize) -> bool {
+        self.of[facet].edges.iter().any(|round| *round != 0.0)
+    }
+
     /// Number of those of some facets that are rounded, and the largest `|b|` in metre.
     pub(super) fn rounded(&self, facets: &[usize]) -> (usize, f64) {
         let sagittas = facets

@@ -219,11 +219,11 @@ fn a_shrunk_joint_carries_torsion_until_it_slips_all_round() {
                     [total.stick, total.slip],
                     if turn < 1.0 { [all, 0] } else { [0, all] }
                 );
-                // Stuck, only the cells are wrong; slipping, so is the pressure, by h²/4: 0.0065 is a guard that it
-                // has no part before (0.0061 on the coarsest mesh, with dual functions of whole facets).
+                // Stuck, only the cells are wrong; slipping, so is the pressure, by h²/4: 0.005 is a guard that it
+                // has no part before.
                 let off = (total.moment[0].abs() / expected - 1.0).abs();
                 let facet = TAU / all as f64;
-                let share = if turn < 1.0 { 0.0065 } else { 0.25 };
+                let share = if turn < 1.0 { 0.005 } else { 0.25 };
                 assert!(off < share * facet * facet, "{kinds:?} {turn} {n} {off:e}");
             }
         }
@@ -278,10 +278,10 @@ fn one_stress_passes_a_disc_in_a_hole_of_its_size() {
                         x[0] * x[0] + across * x[1] * x[1]
                     })
                 });
-                // Symmetry planes undo the error of the ends: orders come out above two.
+                // Symmetry planes undo the error of the ends: orders come out above two, of which 2.2 is a guard.
                 let orders = orders(errors, [1, 2, 4]);
                 assert!(
-                    orders.as_flattened().iter().all(|order| *order > 2.0),
+                    orders.as_flattened().iter().all(|order| *order > 2.2),
                     "{orders:?}"
                 );
             }

@@ -1,6 +1,9 @@
 //! What the facets of both sides must be, so that everything after can rely on it.
 
+use std::collections::HashMap;
 use std::ops::Range;
+
+use nalgebra::Vector3;
 
 use super::super::rounding::Bulges;
 use super::pieces::Piece;
@@ -24,6 +27,8 @@ pub(in crate::contact) struct Surface<'a> {
     pub(super) geometries: Vec<FacetGeometry>,
     /// How far the smooth surface stands off the facets.
     pub(super) bulges: Bulges,
+    /// In 2D, the directions in which the body's boundary goes on where this side ends, by its last nodes.
+    pub(super) flanks: HashMap<usize, Vector3<f64>>,
 }
 
 impl<'a> Surface<'a> {
@@ -51,6 +56,7 @@ impl<'a> Surface<'a> {
             corners: Vec::with_capacity(facets.len()),
             geometries: Vec::with_capacity(facets.len()),
             bulges: Bulges::none(facets.len()),
+            flanks: HashMap::new(),
         };
         for (index, facet) in facets.iter().enumerate() {
             let place = format!("{place}[{index}]");
@@ -68,9 +74,17 @@ impl<'a> Surface<'a> {
         Ok(surface)
     }
 
-    /// The same, with what its facets stand for.
-    pub(in crate::contact) fn with(self, bulges: Bulges) -> Self {
-        Self { bulges, ..self }
+    /// The same, with what its facets stand for and how the body's boundary goes on.
+    pub(in crate::contact) fn with(
+        self,
+        bulges: Bulges,
+        flanks: HashMap<usize, Vector3<f64>>,
+    ) -> Self {
+        Self {
+            bulges,
+            flanks,
+            ..self
+        }
     }
 
     /// Whether a facet's nodes are its corners.

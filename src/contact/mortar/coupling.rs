@@ -60,7 +60,7 @@ pub(in crate::contact) fn couple(
     for node in &mut mortar.nodes {
         node.look_along(node.normal, [false; 3], mesh1, mesh2);
     }
-    mortar.lift();
+    mortar.lift(mesh1);
     Ok(mortar)
 }
 
@@ -168,7 +168,9 @@ struct Share {
     opposite: Vec<(usize, f64)>,
     /// `∫ ψ_i b dA`, in m³ (2D: m²).
     bulge: f64,
-    least: Vec<(f64, Vector3<f64>)>,
+    /// `∫ ψ_i γ dA`, in m³ (2D: m²), and the least γ in metre (C20).
+    distance: f64,
+    least: f64,
 }
 
 impl Gathered {
@@ -182,7 +184,8 @@ impl Gathered {
                 own: Vec::new(),
                 opposite: Vec::new(),
                 bulge: 0.0,
-                least: Vec::new(),
+                distance: 0.0,
+                least: f64::INFINITY,
             });
         }
         &mut self.shares[place]
@@ -195,7 +198,8 @@ impl Gathered {
             share.weight += projection.areas[local];
             share.vector += projection.vectors[local];
             share.bulge += projection.bulges[local];
-            share.least.extend(&projection.least);
+            share.distance += projection.distances[local];
+            share.least = share.least.min(projection.least);
             let entry = |(node, column): &(usize, [f64; 4])| (*node, column[local]);
             let own = projection.own.iter().map(entry);
             share.own.extend(own.filter(|(_, weight)| *weight != 0.0));
@@ -206,9 +210,10 @@ impl Gathered {
 
 impl Mortar {
     /// Bounds the gaps of all contacts from below (C20).
-    pub(in crate::contact) fn lift(&mut self) {
-        let bounds = self.nodes.iter().map(|node| (node.initial_gap, node.least));
-        let lifts = lifts(bounds, &self.patches);
+    pub(in crate::contact) fn lift(&mut self, mesh1: &Mesh) {
+        let own = self.nodes.iter().map(|node| node.lacking).collect();
+        let at: Vec<_> = self.nodes.iter().map(|node| node.centre(mesh1)).collect();
+        let lifts = lifts(own, &at, &self.patches);
         for (node, lift) in self.nodes.iter_mut().zip(lifts) {
             node.initial_gap += lift;
         }
@@ -300,19 +305,13 @@ impl Share {
             opposite: means(self.opposite, &place)?,
             bulge: self.bulge / self.weight,
             taken: 0.0,
-            least: least(&self.least, normal),
+            lacking: (self.least - self.distance / self.weight).max(0.0),
             gap_vector: [0.0; 3],
             initial_gap: 0.0,
             covered: (self.weight / support).min(1.0),
         };
         Ok(Some(node).filter(|node| !node.own.is_empty() && !node.opposite.is_empty()))
     }
-}
-
-/// Least of distances along their own normals, along a common one.
-fn least(distances: &[(f64, Vector3<f64>)], normal: Vector3<f64>) -> f64 {
-    let along = |(distance, own): &(f64, Vector3<f64>)| distance * own.dot(&normal);
-    distances.iter().map(along).fold(f64::INFINITY, f64::min)
 }
 
 /// Weights per node that sum to one, ascending, from shares.

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::check::{Surface, check_dimensions};
 use super::cover::{Opposite, Part, Span};
+use super::flush::reach_flush_ends;
 use super::overlap::Overlaps;
 use super::pieces::Piece;
 use super::polygon;
@@ -25,8 +26,9 @@ const WITHIN: f64 = 1.0 + 1e-9;
 /// Part of a facet that is round-off beside the whole.
 pub(super) const WHOLE: f64 = 1e-9;
 
-/// Part of the distance between the sides by which their ends may lie beside each other and be one.
-pub(super) const BESIDE: f64 = 0.5;
+/// Part of the distance between the sides, as part of a face's size, by which a face may be bare or covered and be whole or bare:
+/// sines of the angle of 30° at most that the normals of faces which face each other have with the mean of both.
+const BESIDE: f64 = 0.5;
 
 /// Cosine above which a neighbouring facet continues the surface and does not turn a corner.
 const SMOOTH: f64 = 0.5;
@@ -100,7 +102,7 @@ impl<'a> Coverage<'a> {
             seen: Vec::with_capacity(one.pieces.len()),
             averted: 0,
         };
-        for piece in &one.pieces {
+        for (number, piece) in one.pieces.iter().enumerate() {
             let view = View::new(one.mesh, &piece.corners);
             let outline = view.outline(one.mesh, &piece.corners);
             let cover = opposite.cover(&view, &outline, |shape| {
@@ -116,11 +118,13 @@ impl<'a> Coverage<'a> {
                 });
             }
             coverage.averted += cover.averted;
-            coverage.seen.push(Seen {
+            let mut seen = Seen {
                 view,
                 outline,
                 parts: cover.parts,
-            });
+            };
+            reach_flush_ends(one, two, number, &mut seen);
+            coverage.seen.push(seen);
         }
         Ok(coverage)
     }
@@ -161,11 +165,14 @@ impl<'a> Coverage<'a> {
         ends
     }
 
-    /// How much of a facet is covered; ends that lie beside each other by less than half of what both sides
-    /// are apart are one.
+    /// How much of a facet is covered; of faces in space, ends that lie beside each other by less than half of what
+    /// both sides are apart are one.
     fn extent(&self, facet: usize) -> Extent {
         let parts = self.of(facet).flat_map(|(_, seen)| &seen.parts);
-        let slack = parts.fold(WHOLE, |most, part| most.max(BESIDE * part.distance.abs()));
+        let slack = match self.one.mesh.dimension {
+            2 => WHOLE,
+            _ => parts.fold(WHOLE, |most, part| most.max(BESIDE * part.distance.abs())),
+        };
         match self.share(facet) {
             share if share <= slack => Extent::Bare,
             share if share < 1.0 - slack => Extent::Part,

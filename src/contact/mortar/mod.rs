@@ -5,7 +5,7 @@
 //! (C8)   P_e = M_e⁻¹ B_e            M_e = ∫ N_i N_j dA,  B_e = ∫ N_i N²_k dA
 //! (C9)   P_i = Σ_e D_ei P_ei / D_i,   n_i ∥ Σ_e ∫ N_i (n − n²) dA
 //! (C10)  Σ_k P_ik x²_k − x_i ∥ n_i
-//! (C20)  g_i = max( (Σ_k P_ik x²_k − x_i) · n_i − Σ_e ∫ ψ_i b dA / D_i,  least distance )
+//! (C20)  g_i = (Σ_k P_ik x²_k − x_i) · n_i − Σ_e ∫ ψ_i b dA / D_i + l_i,   l_i ≥ min γ − Σ_e ∫ ψ_i γ dA / D_i
 //! ```
 //!
 //! The dual multipliers `ψ_i = Σ_j A_ij N_j`, `A = D_e M_e⁻¹`, live on side 1 and make the
@@ -19,8 +19,9 @@
 //! The normal is that of the mean surface of both sides, the same from either of them; where these are far
 //! apart, or far from parallel, that of the gap (C10). A dual
 //! multiplier has two signs, so the mean of a gap under it may be less than the gap is anywhere: then
-//! bodies would be pressed apart that do not touch. The least distance between the smooth surfaces (C18) on the
-//! contact's facets bounds it from below (C20).
+//! bodies would be pressed apart that do not touch. It is lifted by what the mean of γ lacks to the least γ
+//! on the contact's facets (C20), the distance between the smooth surfaces (C18) along the facets' normals: of a fit
+//! on curved facets, where γ is the same everywhere, nothing, although seen along one normal it is not.
 //!
 //! (C10) is what keeps moments: forces and reactions meet on one line. On a symmetry plane the mirror
 //! image does that, and across the plane the weights stay as they are.
@@ -34,7 +35,7 @@
 //! | what lies over a facet, at any distance | `coverage`, `search` |
 //! | a facet's plane, the others seen in it | `view` |
 //! | polygons: intersection, difference, area | `polygon` |
-//! | the parts of a facet and what covers them | `cover` |
+//! | the parts of a facet and what covers them | `cover`, `flush` |
 //! | bodies that are in each other | `overlap` |
 //! | Gauss points over a polygon | `quadrature` |
 //! | functions on facets that are covered in part (C19) | `patch`; in 2D `trim`, `join` |
@@ -52,6 +53,7 @@ mod check;
 mod coupling;
 mod cover;
 mod coverage;
+mod flush;
 mod join;
 mod overlap;
 mod patch;
@@ -105,8 +107,8 @@ pub(crate) struct MortarNode {
     pub bulge: f64,
     /// The bulge, or zero if nothing is rounded, in metre.
     pub taken: f64,
-    /// Least distance on the contact's facets, in metre (C20).
-    pub least: f64,
+    /// What the mean distance under the dual function lacks to the least one on its facets, in metre (C20).
+    pub lacking: f64,
     /// `Σ_k P_ik x²_k − x_i`, in metre, where `x_i` is the mean of its own nodes.
     pub gap_vector: [f64; 3],
     /// The gap (C20) in metre; negative where the sides overlap.

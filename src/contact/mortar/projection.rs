@@ -11,6 +11,10 @@
 //! The nodes of side 1 enter in the same way, by `∫ ψ_i N_k dA`: on a single linear facet that is `D_i`
 //! times the place where the contact stands, and on one that is wholly covered the node alone. So do
 //! what facets leave of the gap (C18), and both sides' normals. Around an axis `dA = 2πr ds`.
+//!
+//! A curved facet has dual functions of their own on each of its pieces: what is seen along the normals of two pieces
+//! does not go on from one to the other, and a single projection would go across. They are biorthogonal on each
+//! piece, hence on the facet.
 
 use nalgebra::Vector3;
 
@@ -30,7 +34,7 @@ const PIVOT: f64 = 1e-14;
 type PerContact = [f64; MOST_CONTACTS];
 
 /// One patch's share of the coupling.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct Projection {
     /// `D_i`, in m² (2D: metre).
     pub(super) areas: PerContact,
@@ -42,9 +46,24 @@ pub(super) struct Projection {
     pub(super) columns: Vec<(usize, PerContact)>,
     /// `∫ ψ_i b dA`, b of both sides (C18), in m³ (2D: m²).
     pub(super) bulges: PerContact,
-    /// Least distance along its own normal of each piece, and that normal: of all points where it is
-    /// integrated and of the ends of its parts.
-    pub(super) least: Vec<(f64, Vector3<f64>)>,
+    /// `∫ ψ_i γ dA`, γ the distance of the smooth surfaces along the normal of the piece, in m³ (2D: m²).
+    pub(super) distances: PerContact,
+    /// Least γ in metre: of all points where it is integrated and of the ends of parts.
+    pub(super) least: f64,
+}
+
+impl Default for Projection {
+    fn default() -> Self {
+        Self {
+            areas: [0.0; MOST_CONTACTS],
+            vectors: [Vector3::zeros(); MOST_CONTACTS],
+            own: Vec::new(),
+            columns: Vec::new(),
+            bulges: [0.0; MOST_CONTACTS],
+            distances: [0.0; MOST_CONTACTS],
+            least: f64::INFINITY,
+        }
+    }
 }
 
 /// The sides at a point of a part.
@@ -57,8 +76,8 @@ struct Meeting {
     bulge: f64,
     /// Sum of the unit normal of side 1 and of the opposite one of side 2.
     normal: Vector3<f64>,
-    /// Distance of the smooth surfaces along the normal of the piece, in metre.
-    gap: f64,
+    /// γ, in metre.
+    distance: f64,
 }
 
 /// A piece of side 1 and one part of it that is covered.
@@ -89,7 +108,9 @@ impl Place<'_> {
             _ => LINEAR,
         };
         let higher = piece.is_quadratic() || across.is_quadratic() || model == Model::Axisymmetric;
-        points + usize::from(higher)
+        let round = self.coverage.one.bulges.is_round(piece.number)
+            || self.coverage.two.bulges.is_round(across.number);
+        points + usize::from(higher || round)
     }
 
     /// Both sides at a point of the piece's plane.
@@ -108,7 +129,7 @@ impl Place<'_> {
                 .map(|(node, value)| view.height(mesh.nodes[*node]) * value)
                 .sum()
         };
-        let gap = height(two.mesh, across.facet, &there) - height(one.mesh, piece.facet, &own);
+        let apart = height(two.mesh, across.facet, &there) - height(one.mesh, piece.facet, &own);
         let own_normal = piece.normal(one.mesh, &of_piece);
         let flat = || view.vector(self.seen.outline.area_vector(at)).normalize();
         let two_normal = across.normal(two.mesh, &of_across);
@@ -119,7 +140,7 @@ impl Place<'_> {
             own,
             across: there,
             bulge,
-            gap: gap - one.bulges.taken(bulge),
+            distance: apart - one.bulges.taken(bulge),
         }
     }
 }
@@ -137,7 +158,7 @@ impl Integrals {
         let (seen, part) = (place.seen, place.part);
         let around = around(model);
         let (mut own, mut across) = ([[0.0; 4]; MOST_FACET_NODES], [[0.0; 4]; MOST_FACET_NODES]);
-        let mut least = f64::INFINITY;
+        let mut least = self.sums.least;
         integrate(&part.polygon, place.points(model), |at, share| {
             let of_piece = seen.outline.shape(at);
             let within = seen.outline.within(at, seen.outline.height(&of_piece));
@@ -146,12 +167,13 @@ impl Integrals {
             let area = vector.norm();
             let met = place.at(at);
             let here = member.functions(&met.hats);
-            least = least.min(met.gap);
+            least = least.min(met.distance);
             for (i, value) in here.into_iter().enumerate() {
                 let weight = value * area;
                 self.sums.areas[i] += weight;
                 self.sums.vectors[i] += met.normal * weight;
                 self.sums.bulges[i] += met.bulge * weight;
+                self.sums.distances[i] += met.distance * weight;
                 for (entry, other) in self.mass[i].iter_mut().zip(here) {
                     *entry += weight * other;
                 }
@@ -161,22 +183,40 @@ impl Integrals {
                 }
             }
         });
-        let corners = part.polygon.iter().map(|at| place.at(*at).gap);
-        self.sums
-            .least
-            .push((corners.fold(least, f64::min), seen.view.normal));
+        let corners = part.polygon.iter().map(|at| place.at(*at).distance);
+        self.sums.least = corners.fold(least, f64::min);
         let nodes = |piece: &Piece<'_>| piece.facet.nodes.clone().into_iter();
         self.sums.own.extend(nodes(place.piece).zip(own));
         self.sums.columns.extend(nodes(place.across()).zip(across));
+    }
+
+    /// The integrals with `M` of so many contacts divided out of them; zero without an area.
+    fn solved(mut self, contacts: usize) -> Projection {
+        if self.sums.areas.iter().sum::<f64>() <= 0.0 {
+            return Projection::default();
+        }
+        merge(&mut self.sums.columns);
+        self.sums.solve(contacts, self.mass);
+        self.sums
     }
 }
 
 impl Projection {
     /// Integrates over all of a patch that is covered; none if that has no area.
     pub(super) fn new(coverage: &Coverage<'_>, patch: &Patch, model: Model) -> Option<Self> {
-        let mut integrals = Integrals::default();
-        for member in &patch.members {
-            for (piece, seen) in coverage.of(member.facet) {
+        let members = patch.members.iter();
+        let pieces: Vec<_> = members
+            .flat_map(|member| coverage.of(member.facet).map(move |of| (member, of)))
+            .collect();
+        let together = if patch.members.len() == 1 {
+            1
+        } else {
+            pieces.len()
+        };
+        let mut sums = Self::default();
+        for pieces in pieces.chunks(together.max(1)) {
+            let mut integrals = Integrals::default();
+            for (member, (piece, seen)) in pieces {
                 for part in &seen.parts {
                     let place = Place {
                         coverage,
@@ -187,13 +227,12 @@ impl Projection {
                     integrals.add(&place, member, model);
                 }
             }
+            sums.add(integrals.solved(patch.stands.len()));
         }
-        let Integrals { mass, mut sums } = integrals;
         if sums.areas.iter().sum::<f64>() <= 0.0 {
             return None;
         }
         merge(&mut sums.columns);
-        sums.solve(patch.stands.len(), mass);
         match (patch.shares, &patch.members[..]) {
             (Some(shares), [member]) if coverage.one.is_linear(member.facet) => {
                 sums.stand(coverage.one.corners_of(member.facet), &shares);
@@ -203,13 +242,25 @@ impl Projection {
         Some(sums)
     }
 
+    fn add(&mut self, other: Self) {
+        for contact in 0..MOST_CONTACTS {
+            self.areas[contact] += other.areas[contact];
+            self.vectors[contact] += other.vectors[contact];
+            self.bulges[contact] += other.bulges[contact];
+            self.distances[contact] += other.distances[contact];
+        }
+        self.own.extend(other.own);
+        self.columns.extend(other.columns);
+        self.least = self.least.min(other.least);
+    }
+
     /// Replaces the columns of `B` by those of `D P = D M⁻¹ B`.
     fn solve(&mut self, contacts: usize, mass: [PerContact; MOST_CONTACTS]) {
         let total: f64 = self.areas.iter().sum();
         let factor = Factor::new(contacts, mass);
         let nodes = self.columns.iter_mut().chain(&mut self.own);
         let columns = nodes.map(|(_, column)| column);
-        for column in columns.chain(std::iter::once(&mut self.bulges)) {
+        for column in columns.chain([&mut self.bulges, &mut self.distances]) {
             match &factor {
                 Some(factor) => factor.solve(column),
                 // All contacts see the mean of what covers so small a part.

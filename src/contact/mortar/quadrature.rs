@@ -6,7 +6,7 @@
 //!
 //! with `n` Gauss–Legendre points along `u` and `v`: exact for polynomials of degree
 //! `2n − 2`. On triangles, lines and parallelograms the integrands of (C8) are
-//! polynomials (degree 2 and 4). On other quadrilaterals shape functions are not: they
+//! polynomials (degree 2 and 4), and those of (C20) where facets are round (degree 3 and 5). On other quadrilaterals shape functions are not: they
 //! have a branch point where the Jacobian of the facet's plane, continued beyond the
 //! facet, vanishes, and Gauss errors fall by `ρ²` per point, `ρ = s + √(s² − 1)`, `s` the
 //! distance of that point in half-widths of the facet.

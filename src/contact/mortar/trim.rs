@@ -12,7 +12,7 @@
 
 use nalgebra::Vector3;
 
-use super::coverage::{BESIDE, Coverage};
+use super::coverage::Coverage;
 use super::patch::{MOST_CONTACTS, Member, Patch, Stand};
 
 /// Part of a facet's length up to which the cover ends at its end.
@@ -60,35 +60,18 @@ fn strip(coverage: &Coverage<'_>, facet: usize) -> Option<Strip> {
     })
 }
 
-/// Where the cover of a facet starts and ends, as parts of its length; none without cover. Where it ends beside
-/// the end of the facet by less than half of what both are apart, that is one end, seen along the normal of the facet.
+/// Where the cover of a facet starts and ends, as parts of its length; none without cover.
 fn range(coverage: &Coverage<'_>, facet: usize) -> Option<[f64; 2]> {
-    let (mut low, mut high) = ((f64::INFINITY, 0.0), (f64::NEG_INFINITY, 0.0));
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for (piece, seen) in coverage.of(facet) {
-        for part in &seen.parts {
-            for at in &part.polygon {
-                let along = piece.hats(&seen.outline.shape(*at))[1];
-                low = if along < low.0 {
-                    (along, part.distance)
-                } else {
-                    low
-                };
-                high = if along > high.0 {
-                    (along, part.distance)
-                } else {
-                    high
-                };
-            }
+        for at in seen.parts.iter().flat_map(|part| &part.polygon) {
+            let along = piece.hats(&seen.outline.shape(*at))[1];
+            (low, high) = (low.min(along), high.max(along));
         }
     }
-    let slack = |distance: f64| AT_END.max(BESIDE * distance.abs());
-    let from = if low.0 > slack(low.1) { low.0 } else { 0.0 };
-    let to = if high.0 < 1.0 - slack(high.1) {
-        high.0
-    } else {
-        1.0
-    };
-    (low.0 < high.0).then_some([from, to])
+    let from = if low > AT_END { low } else { 0.0 };
+    let to = if high < 1.0 - AT_END { high } else { 1.0 };
+    (low < high).then_some([from, to])
 }
 
 impl Strip {
