@@ -4,6 +4,7 @@ mod cases;
 mod check;
 mod half_space;
 mod import;
+mod interrupt;
 mod limit;
 mod outputs;
 mod progress;

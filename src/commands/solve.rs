@@ -1,4 +1,4 @@
-//! `dpana solve`: one state, or a load history.
+//! `dpana solve`: one state, or a load history; Ctrl-C ends it with the best state so far.
 
 use std::error::Error;
 use std::fs;
@@ -10,6 +10,7 @@ use dpana::report::{self, Continuity, Table, replace_file, vtu};
 use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
+use super::interrupt;
 use super::outputs::{check_file, check_output, is_standard, say, write_output, write_table};
 use super::progress::Progress;
 use super::scene_file::read_scene;
@@ -45,7 +46,7 @@ pub(crate) struct Solve {
     /// Columns to draw: across, up.
     #[arg(long, value_name = "X,Y", requires = "plot")]
     axes: Option<String>,
-    /// Write the state to this file after every load step, to restart from.
+    /// Write the state to this file after every load step that is certified, to restart from.
     #[arg(long, value_name = "FILE")]
     state: Option<PathBuf>,
     /// Take a load history on from the state in this file; what comes after it in the scene may
@@ -73,7 +74,8 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
             format!("--axes {axes}: no comma; expected two columns, such as `at,normal`")
         })?),
     };
-    let scene = read_scene(&arguments.scene)?;
+    let mut scene = read_scene(&arguments.scene)?;
+    scene.settings.interrupt = interrupt::on_ctrl_c();
     check_drawable(arguments, &scene)?;
     let from = match &arguments.restart {
         None => None,
@@ -207,7 +209,9 @@ impl<'a> States<'a> {
         }
         // Last, so that whoever takes the history on from here finds all that came before.
         match (&arguments.state, solution.saved_state()) {
-            (Some(path), Some(state)) => replace_file(path, &state.to_json()),
+            (Some(path), Some(state)) if solution.status() == Status::Certified => {
+                replace_file(path, &state.to_json())
+            }
             _ => Ok(()),
         }
     }

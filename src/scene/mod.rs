@@ -4,7 +4,7 @@
 //! bodies    mesh, model, materials, supports, loads
 //! contacts  group of surface facets, rigid obstacle, friction
 //! steps     instants, factors of loads and supports, motions of obstacles
-//! settings  tolerance, max_sweeps
+//! settings  tolerance, max_sweeps, time_limit
 //! ```
 //!
 //! A [`Scene`] comes from JSON or is built in code; [`Scene::mechanics`] turns it into
@@ -29,10 +29,11 @@ mod support;
 mod table;
 
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use serde::{Deserialize, Serialize};
 
-use crate::alternation::Settings;
+use crate::alternation::{Interrupt, Settings};
 use crate::body::Body;
 use crate::contact::ContactPair;
 use crate::error::Error;
@@ -106,6 +107,14 @@ pub struct SceneSettings {
     #[cfg_attr(feature = "cli", schemars(range(min = 1)))]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub max_sweeps: Option<usize>,
+    /// Seconds after which the solve of a state (each part of a load step has its own) gives up with the best state
+    /// it found, more than 0; without it there is no end.
+    #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub time_limit: Option<f64>,
+    /// A flag that ends the solve once it is raised, with the best state; not part of a scene's file.
+    #[serde(skip)]
+    pub interrupt: Option<Interrupt>,
 }
 
 /// A scene in the terms of mechanics: groups resolved, facets outward, values checked.
@@ -329,11 +338,23 @@ impl SceneSettings {
         let settings = Settings {
             tolerance: self.tolerance.unwrap_or(default.tolerance),
             max_sweeps: self.max_sweeps.unwrap_or(default.max_sweeps),
-            ..default
+            time_limit: self.time_limit.map(seconds).transpose()?,
+            interrupt: self.interrupt,
         };
         settings.validate()?;
         Ok(settings)
     }
+}
+
+/// A time limit.
+fn seconds(limit: f64) -> Result<Duration, Error> {
+    let found = Duration::try_from_secs_f64(limit);
+    let found = found.ok().filter(|limit| !limit.is_zero());
+    found.ok_or_else(|| Error::OutOfRange {
+        place: "settings.time_limit".into(),
+        value: limit,
+        accepted: "0 < time_limit <= 1.8e19, in second",
+    })
 }
 
 /// The JSON Schema of a scene, from the types that read it.

@@ -2,7 +2,8 @@
 #![cfg(unix)]
 
 use std::fs;
-use std::process::{Command, Stdio};
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -33,42 +34,59 @@ fn scene() -> Value {
     })
 }
 
-#[test]
-fn an_interrupt_leaves_the_last_complete_state_and_the_history_goes_on_from_it() {
-    let folder = folder("interrupted");
+/// The program on that scene, once its first state is there.
+fn begun(folder: &Path, arguments: &[&str]) -> Child {
     fs::write(folder.join("scene.json"), scene().to_string()).unwrap();
-    let mut child = Command::new(env!("CARGO_BIN_EXE_dpana"))
-        .current_dir(&folder)
+    let child = Command::new(env!("CARGO_BIN_EXE_dpana"))
+        .current_dir(folder)
         .args(["solve", "scene.json", "--state", "state.json"])
+        .args(arguments)
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
-    let state = folder.join("state.json");
     let start = Instant::now();
-    while !state.exists() && start.elapsed() < Duration::from_secs(120) {
+    while !folder.join("state.json").exists() && start.elapsed() < Duration::from_secs(120) {
         sleep(Duration::from_millis(1));
     }
-    // Ctrl-C leaves no less than this: nothing in the program hears it.
-    child.kill().unwrap();
-    assert!(!child.wait().unwrap().success(), "it was over before");
+    child
+}
 
+/// Takes the history on from the state that is there, to its end.
+fn goes_on(folder: &Path) {
     // Whole: the file reads, and whatever else was being written is not in its place.
-    let left: Value = serde_json::from_str(&fs::read_to_string(&state).unwrap()).unwrap();
+    let left = fs::read_to_string(folder.join("state.json")).unwrap();
+    let left: Value = serde_json::from_str(&left).unwrap();
     let steps = left["steps"].as_u64().unwrap();
     assert!((1..60).contains(&steps), "{steps}");
-    let output = dpana(
-        &folder,
-        &[
-            "solve",
-            "scene.json",
-            "--restart",
-            "state.json",
-            "--table",
-            "rest.csv",
-        ],
-    );
+    let rest = ["--restart", "state.json", "--table", "rest.csv"];
+    let output = dpana(folder, &[&["solve", "scene.json"], &rest[..]].concat());
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(0), "{said}");
     let rest = fs::read_to_string(folder.join("rest.csv")).unwrap();
     assert_eq!(rest.lines().count() as u64 - 1, 60 - steps);
+}
+
+#[test]
+fn a_program_that_is_ended_leaves_the_last_complete_state_and_the_history_goes_on_from_it() {
+    let folder = folder("ended");
+    let mut child = begun(&folder, &[]);
+    child.kill().unwrap();
+    assert!(!child.wait().unwrap().success(), "it was over before");
+    goes_on(&folder);
+}
+
+#[test]
+fn ctrl_c_ends_with_the_best_state_and_the_history_goes_on_from_the_last_certified_one() {
+    let folder = folder("interrupted");
+    let mut child = begun(&folder, &["--report", "report.json"]);
+    let signal = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(signal.unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(1));
+    let report = fs::read_to_string(folder.join("report.json")).unwrap();
+    let report: Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["status"], "not_converged");
+    assert_eq!(report["reason"], "interrupted");
+    goes_on(&folder);
 }
