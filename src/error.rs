@@ -211,11 +211,13 @@ pub enum Error {
 
     /// The operator of a bare problem is not symmetric.
     #[error(
-        "operator[{row}][{column}] differs from operator[{column}][{row}] by {violation:e} \
-         (largest entry {largest:e}); expected a symmetric matrix"
+        "operator: not symmetric by {:.1e} of its largest entry, worst where operator[{row}][{column}] differs \
+         from operator[{column}][{row}] by {violation:e} (largest entry {largest:e}); expected at most 1e-10: if \
+         the difference is rounding, solve the symmetric part (`BareProblem::symmetrised`)",
+        violation / largest
     )]
     NotSymmetric {
-        /// Row of the first violation.
+        /// Row of the worst pair.
         row: usize,
         /// Its column.
         column: usize,

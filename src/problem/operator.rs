@@ -69,18 +69,8 @@ impl Operator {
                 .iter()
                 .fold(largest, |m, x| m.max(x.abs()));
         }
+        check_symmetric(&compliance, largest)?;
         for j in 0..size {
-            for i in j..size {
-                let violation = (compliance[(i, j)] - compliance[(j, i)]).abs();
-                if violation > SYMMETRY * largest {
-                    return Err(Error::NotSymmetric {
-                        row: i,
-                        column: j,
-                        violation,
-                        largest,
-                    });
-                }
-            }
             if compliance[(j, j)] < 0.0 {
                 return Err(Error::OutOfRange {
                     place: format!("operator[{j}][{j}]"),
@@ -188,6 +178,28 @@ impl Operator {
     }
 }
 
+/// Refuses a matrix that is further from its transpose than [`SYMMETRY`] allows, with its worst pair.
+fn check_symmetric(compliance: &Mat<f64>, largest: f64) -> Result<(), Error> {
+    let (mut violation, mut row, mut column) = (0.0, 0, 0);
+    for j in 0..compliance.ncols() {
+        for i in j + 1..compliance.nrows() {
+            let found = (compliance[(i, j)] - compliance[(j, i)]).abs();
+            if found > violation {
+                (violation, row, column) = (found, i, j);
+            }
+        }
+    }
+    if violation <= SYMMETRY * largest {
+        return Ok(());
+    }
+    Err(Error::NotSymmetric {
+        row,
+        column,
+        violation,
+        largest,
+    })
+}
+
 /// `(L Lᵀ)⁻¹ = L⁻ᵀ L⁻¹` (C2); the upper triangle of L is not read.
 fn inverse_of_product(lower: MatRef<'_, f64>) -> Mat<f64> {
     let mut inverse = Mat::zeros(lower.nrows(), lower.nrows());
@@ -287,16 +299,25 @@ mod tests {
     }
 
     #[test]
-    fn an_asymmetric_compliance_is_refused_with_the_size_of_the_violation() {
-        let found = Operator::from_compliance(mat![[1.0, 0.5], [0.25, 1.0]]).unwrap_err();
-        assert_eq!(
-            found,
-            Error::NotSymmetric {
-                row: 1,
-                column: 0,
-                violation: 0.25,
-                largest: 1.0
-            }
-        );
+    fn an_asymmetric_compliance_is_refused_with_its_worst_pair() {
+        let of = |worst: f64| mat![[4.0, 0.5, 1.0], [0.25, 4.0, 1.0], [1.0 + worst, 1.0, 4.0]];
+        let found = Operator::from_compliance(of(1.0)).unwrap_err();
+        let expected = Error::NotSymmetric {
+            row: 2,
+            column: 0,
+            violation: 1.0,
+            largest: 4.0,
+        };
+        assert_eq!(found, expected);
+        // 1 of 4, and what may be done about it.
+        let said = found.to_string();
+        for part in [
+            "by 2.5e-1 of",
+            "operator[2][0]",
+            "at most 1e-10",
+            "symmetrised",
+        ] {
+            assert!(said.contains(part), "{said}");
+        }
     }
 }

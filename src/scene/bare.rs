@@ -55,6 +55,31 @@ impl BareProblem {
         json::parse(text, name)
     }
 
+    /// The same with `(W + Wᵀ)/2` in place of W: for matrices that are symmetric but for the rounding of the code
+    /// that wrote them. What is solved and judged then is that problem; where W is not symmetric by its mechanics,
+    /// it is another.
+    ///
+    /// ```
+    /// # use dpana::scene::BareProblem;
+    /// let bare = r#"{"name": "rounded", "source": "", "dimension": 2, "contacts": 1, "convention": "",
+    ///     "w_rows": [0, 1, 0, 1], "w_cols": [0, 1, 1, 0], "w_values": [1, 1, 0.5, 0.5000001],
+    ///     "q": [-1, 0], "mu": [0.5]}"#;
+    /// let bare = BareProblem::from_json(bare, "")?;
+    /// let refused = bare.to_problem().unwrap_err().to_string();
+    /// assert!(refused.contains("not symmetric by 1.0e-7 of its largest entry"));
+    /// assert!(bare.symmetrised().to_problem().is_ok());
+    /// # Ok::<(), dpana::Error>(())
+    /// ```
+    #[must_use]
+    pub fn symmetrised(&self) -> Self {
+        let mut half = self.clone();
+        half.w_rows.extend(&self.w_cols);
+        half.w_cols.extend(&self.w_rows);
+        half.w_values.extend(&self.w_values);
+        half.w_values.iter_mut().for_each(|w| *w *= 0.5);
+        half
+    }
+
     /// The problem in our signs.
     ///
     /// # Errors
