@@ -113,7 +113,7 @@ const ONLY: [(&str, &str, &[&str]); 3] = [
         &["ContactProblem", "Floating", "velocity_basis"],
     ),
     ("cone", "limit", &[]),
-    ("scene", "alternation", &["Settings"]),
+    ("scene", "alternation", &["Interrupt", "Settings"]),
 ];
 
 /// What only unit tests may import: a shipped file of the first may not name the second.
