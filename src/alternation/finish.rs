@@ -23,16 +23,16 @@ use std::ops::Range;
 use faer::{Col, Mat};
 
 use super::condition::Factored;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, Motion};
 use super::laws::{Law, Local, roots};
 use crate::problem::ContactProblem;
 use crate::problem::velocity_basis::VelocityBasis;
 
-/// A reaction, with the displacement that goes with it.
+/// A reaction, with the displacement beyond the gaps that goes with it.
 #[derive(Clone, Debug)]
 pub(super) struct Point {
     pub(super) reaction: Vec<f64>,
-    pub(super) displacement: Vec<f64>,
+    pub(super) beyond: Vec<f64>,
     /// Rigid motion since the anchor, along the velocities of [`Finish`].
     pub(super) drift: Vec<f64>,
 }
@@ -94,19 +94,16 @@ impl<'a> Finish<'a> {
     pub(super) fn point(&self, state: &Iterate) -> Point {
         Point {
             reaction: state.reaction.clone(),
-            displacement: state.verdict.displacement.clone(),
+            beyond: state.verdict.beyond.clone(),
             drift: vec![0.0; self.velocities()],
         }
     }
 
-    /// Amplitudes of the free modes after a drift.
-    pub(super) fn moved(&self, motion: &[f64], drift: &[f64]) -> Vec<f64> {
+    /// The motion after a drift.
+    pub(super) fn moved(&self, motion: &Motion, drift: &[f64]) -> Motion {
         match &self.rigid {
-            None => Vec::new(),
-            Some(rigid) => {
-                let drift = rigid.basis.amplitudes(drift);
-                motion.iter().zip(drift).map(|(a, d)| a + d).collect()
-            }
+            None => Motion::default(),
+            Some(rigid) => motion.plus(&rigid.basis.amplitudes(drift)),
         }
     }
 
@@ -125,21 +122,6 @@ impl<'a> Finish<'a> {
         scaled.fold(0.0, f64::hypot)
     }
 
-    /// What the rounding of a rigid motion alone may leave of the natural map, in newton.
-    pub(super) fn rounding(&self, reaction: &[f64], motion: &[f64]) -> f64 {
-        let Some(floating) = self.problem.floating() else {
-            return 0.0;
-        };
-        let unknowns = self.roots.iter().zip(reaction).enumerate();
-        let pressed = unknowns.filter(|(_, (_, t))| **t != 0.0);
-        let moved = pressed.map(|(row, (root, _))| {
-            let terms = motion.iter().enumerate();
-            let moved = terms.map(|(k, a)| floating.modes()[(row, k)] * a);
-            root * root * moved.fold(0.0, f64::hypot)
-        });
-        0.5 * f64::EPSILON * moved.fold(0.0, f64::hypot)
-    }
-
     /// Products of two numbers that the last step took.
     pub(super) fn products(&self) -> f64 {
         self.last.as_ref().map_or(0.0, Factored::products)
@@ -151,7 +133,7 @@ impl<'a> Finish<'a> {
     }
 
     /// One step; `None` if the matrix of (D4) is singular. What each contact does is read off the
-    /// reaction and `seen`, a displacement: the point's own, or that of a neighbour.
+    /// reaction and `seen`, a displacement beyond the gaps: the point's own, or that of a neighbour.
     pub(super) fn step(
         &mut self,
         from: &Point,
@@ -179,11 +161,7 @@ impl<'a> Finish<'a> {
             let drift = solution.iter().skip(unknowns.len());
             for (k, along) in drift.enumerate() {
                 next.drift[k] += along;
-                add(
-                    &mut next.displacement,
-                    *along,
-                    rigid.velocities.col_as_slice(k),
-                );
+                add(&mut next.beyond, *along, rigid.velocities.col_as_slice(k));
             }
         }
         Some(next)
@@ -193,7 +171,7 @@ impl<'a> Finish<'a> {
     pub(super) fn residual(&self, at: &Point, springs: Springs<'_>) -> f64 {
         let mut residual = 0.0_f64;
         for contact in 0..self.problem.contacts() {
-            let defect = self.local(contact, &at.reaction, &at.displacement, springs);
+            let defect = self.local(contact, &at.reaction, &at.beyond, springs);
             let count = self.block(contact).len();
             residual = defect.defect()[..count]
                 .iter()
@@ -232,7 +210,7 @@ impl<'a> Finish<'a> {
         &self,
         contact: usize,
         reaction: &[f64],
-        displacement: &[f64],
+        beyond: &[f64],
         springs: Springs<'_>,
     ) -> Local {
         let mut local = Local {
@@ -241,13 +219,11 @@ impl<'a> Finish<'a> {
             friction: self.friction(contact),
             step: (1.0 + springs.softness).recip(),
         };
-        let mut free = self.problem.initial_gap()[contact];
         for (k, unknown) in self.block(contact).enumerate() {
             let (t, root) = (reaction[unknown], self.roots[unknown]);
             let spring = springs.softness * (t - springs.anchor[unknown]) / root;
             local.reaction[k] = t / root;
-            local.beyond[k] = root * (displacement[unknown] - free) + spring;
-            free = 0.0;
+            local.beyond[k] = root * beyond[unknown] + spring;
         }
         local
     }
@@ -280,7 +256,7 @@ impl<'a> Finish<'a> {
         if by != 0.0 {
             point.reaction[unknown] += by;
             let column = self.problem.compliance().col_as_slice(unknown);
-            add(&mut point.displacement, by, column);
+            add(&mut point.beyond, by, column);
         }
     }
 
@@ -338,7 +314,7 @@ impl<'a> Finish<'a> {
     /// Minus the residual of (D4) and (D5).
     fn right_side(&self, laws: &[Law], at: &Point, springs: Springs<'_>) -> Col<f64> {
         let contacts = laws.iter().flat_map(|law| {
-            let local = self.local(law.contact, &at.reaction, &at.displacement, springs);
+            let local = self.local(law.contact, &at.reaction, &at.beyond, springs);
             law.missing(&local).into_iter().take(law.block.len())
         });
         let rest = self.imbalance(at, springs.softness);
@@ -369,14 +345,14 @@ mod tests {
 
     /// A step without springs.
     fn step(problem: &ContactProblem, reaction: Vec<f64>, motion: Vec<f64>) -> Point {
-        let state = Iterate::new(&Judge::new(problem), reaction, motion);
+        let state = Iterate::new(&Judge::new(problem), reaction, Motion::of(motion));
         let mut finish = Finish::new(problem).unwrap();
         let springs = Springs {
             softness: 0.0,
             anchor: &state.reaction,
         };
         let from = finish.point(&state);
-        finish.step(&from, &from.displacement, springs).unwrap()
+        finish.step(&from, &from.beyond, springs).unwrap()
     }
 
     fn assert_close(found: &[f64], expected: &[f64]) {
@@ -393,7 +369,7 @@ mod tests {
         let found = step(&contact([0.25, 0.5]), vec![0.0; 2], Vec::new());
         assert_close(&found.reaction, &[-0.5, -0.25]);
         // u_T = 0.5 − t_N + 2 t_T.
-        assert_close(&found.displacement, &[0.0, 0.5]);
+        assert_close(&found.beyond, &[0.0, 0.5]);
     }
 
     #[test]
@@ -401,14 +377,14 @@ mod tests {
         // Nothing presses yet; the trial point (−1, −0.05) does, and its disc of radius ½ holds: t = −K û.
         let found = step(&contact([1.0, 0.1]), vec![0.0; 2], Vec::new());
         assert_close(&found.reaction, &[-2.1, -1.1]);
-        assert_close(&found.displacement, &[0.0; 2]);
+        assert_close(&found.beyond, &[0.0; 2]);
     }
 
     #[test]
     fn an_open_contact_lets_go() {
         let found = step(&contact([-3.0, 0.1]), vec![-1.0, 0.2], Vec::new());
         assert_eq!(found.reaction, [0.0; 2]);
-        assert_close(&found.displacement, &[-3.0, 0.1]);
+        assert_close(&found.beyond, &[-3.0, 0.1]);
     }
 
     /// Two smooth contacts of compliance ½ and ¼ m/N under a rigid lid that sinks by α and
@@ -430,15 +406,17 @@ mod tests {
         let found = step(&problem, vec![-1.0; 2], start.clone());
         assert_close(&found.reaction, &[-4.0, -2.0]);
         let finish = Finish::new(&problem).unwrap();
-        assert_close(&finish.moved(&start, &found.drift), &[1.25, 0.75]);
+        let moved = finish.moved(&Motion::of(start), &found.drift);
+        assert_close(&moved.amplitudes, &[1.25, 0.75]);
     }
 
     #[test]
     fn nothing_is_missed_at_a_solution_and_the_root_of_an_energy_elsewhere() {
         let problem = contact([0.25, 0.5]);
         let (judge, finish) = (Judge::new(&problem), Finish::new(&problem).unwrap());
-        let missed =
-            |reaction: &[f64]| finish.missed(&Iterate::new(&judge, reaction.to_vec(), Vec::new()));
+        let missed = |reaction: &[f64]| {
+            finish.missed(&Iterate::new(&judge, reaction.to_vec(), Motion::default()))
+        };
         assert!(missed(&[-0.5, -0.25]) < 1e-15);
         // At rest ρ_N u_N = ¼ and the friction that is missing is μ ¼: ¼/√ρ_N and ⅛/√ρ_T.
         let expected = f64::hypot(0.25, 0.125 * 2.0_f64.sqrt());
@@ -450,14 +428,14 @@ mod tests {
         // One smooth contact of 1 m/N, û = 1 m, with a spring of σ = 1: (1 + 1) t + 1 = 0.
         let operator = Operator::from_compliance(mat![[1.0]]).unwrap();
         let problem = ContactProblem::new(&[0], vec![0.0], vec![0.0], vec![1.0], operator).unwrap();
-        let state = Iterate::new(&Judge::new(&problem), vec![0.0], Vec::new());
+        let state = Iterate::new(&Judge::new(&problem), vec![0.0], Motion::default());
         let mut finish = Finish::new(&problem).unwrap();
         let springs = Springs {
             softness: 1.0,
             anchor: &[0.0],
         };
         let from = finish.point(&state);
-        let found = finish.step(&from, &from.displacement, springs).unwrap();
+        let found = finish.step(&from, &from.beyond, springs).unwrap();
         assert_close(&found.reaction, &[-0.5]);
         assert!(finish.residual(&found, springs) < 1e-15);
     }

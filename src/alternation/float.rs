@@ -8,6 +8,7 @@
 
 use std::time::Instant;
 
+use super::iterate::Motion;
 use super::run::Run;
 use super::{Failure, Shortfall};
 use crate::cone::CoulombProgram;
@@ -52,7 +53,7 @@ impl Run<'_> {
                 self.work.cone_iterations += solution.iterations;
                 self.work.coulomb_programs += 1;
                 self.state.reaction = solution.reaction;
-                self.state.motion = solution.motion;
+                self.state.motion = Motion::of(solution.motion);
             }
             None => self.shortfall = Some(Shortfall::ConeSolver),
         }
@@ -82,10 +83,8 @@ impl Run<'_> {
 
     /// Whether springs that soften let the bodies move farther than `far`, in metre, since an earlier motion:
     /// nothing else holds them.
-    pub(super) fn give_way(&mut self, before: &[f64], far: f64) -> bool {
-        let pairs = self.state.motion.iter().zip(before);
-        let motion: Vec<f64> = pairs.map(|(now, before)| now - before).collect();
-        self.failure = self.elastic_failure(motion, far);
+    pub(super) fn give_way(&mut self, before: &Motion, far: f64) -> bool {
+        self.failure = self.elastic_failure(self.state.motion.since(before), far);
         self.failure.is_some()
     }
 

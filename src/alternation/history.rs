@@ -16,6 +16,9 @@ pub struct Outcome {
     pub reaction: Vec<f64>,
     /// Rigid motion α in metre, per free mode of bodies that float; else empty.
     pub motion: Vec<f64>,
+    /// What the rounding of `motion` leaves out, in metre: the certificate is that of their sum. Contacts feel it
+    /// only where bodies move millions of times as far as contacts indent.
+    pub motion_left_out: Vec<f64>,
     /// Why nothing holds the bodies, with [`Status::NoEquilibrium`].
     pub failure: Option<Failure>,
     /// The judge's last word: displacement, state of each contact, residuals.

@@ -121,9 +121,13 @@ pub fn solve_near(
     check_length("displacement", problem.unknowns(), displacement.len())?;
     check_finite("displacement", displacement)?;
     check_length("motion", problem.free_modes(), near.motion.len())?;
+    let mut beyond = displacement.clone();
+    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
+        beyond[n] -= gap;
+    }
     on_felt_motions(problem, |problem, felt| {
         let state = (&near.reaction[..], &felt(&near.motion)[..]);
-        Ok(run(begun(problem, settings, state, Some(displacement))?))
+        Ok(run(begun(problem, settings, state, Some(&beyond))?))
     })
 }
 
@@ -132,14 +136,14 @@ fn begun<'a>(
     problem: &'a ContactProblem,
     settings: &'a Settings,
     (reaction, motion): (&[f64], &[f64]),
-    displacement: Option<&[f64]>,
+    beyond: Option<&[f64]>,
 ) -> Result<Run<'a>, Error> {
     settings.validate()?;
     check_length("reaction", problem.unknowns(), reaction.len())?;
     check_finite("reaction", reaction)?;
     check_finite("motion", motion)?;
     let mut run = Run::new(problem, settings);
-    run.begin_from(reaction, motion, displacement);
+    run.begin_from(reaction, motion, beyond);
     Ok(run)
 }
 

@@ -104,10 +104,9 @@ impl Run<'_> {
     /// Largest gap or slip, in metre.
     fn reach(&self) -> f64 {
         let mut reach = 0.0_f64;
-        for (contact, ends) in self.problem.offsets().windows(2).enumerate() {
-            let u = &self.start.verdict.displacement[ends[0]..ends[1]];
-            reach = reach.max((u[0] - self.problem.initial_gap()[contact]).abs());
-            reach = u[1..].iter().fold(reach, |reach, u| reach.max(u.abs()));
+        for ends in self.problem.offsets().windows(2) {
+            let beyond = &self.start.verdict.beyond[ends[0]..ends[1]];
+            reach = beyond.iter().fold(reach, |reach, u| reach.max(u.abs()));
         }
         reach
     }
@@ -122,7 +121,7 @@ fn settle(finish: &mut Finish<'_>, anchor: &Iterate, softness: f64) -> (Option<P
     let mut point = finish.point(anchor);
     let wanted = SETTLED * finish.residual(&point, springs);
     for steps in 1..=STEPS.0 {
-        let seen = point.displacement.clone();
+        let seen = point.beyond.clone();
         let Some(next) = finish.step(&point, &seen, springs) else {
             return (None, steps);
         };

@@ -5,7 +5,7 @@ use std::time::Instant;
 use super::anderson::Anderson;
 use super::finish::{Finish, Springs};
 use super::gauss_seidel::GaussSeidel;
-use super::iterate::Iterate;
+use super::iterate::{Iterate, Motion};
 use super::prediction::Roles;
 use super::settings::Clock;
 use super::{Failure, Outcome, Settings, Shortfall, Status, SweepRecord, Work};
@@ -33,9 +33,6 @@ const PATIENCE: usize = 3;
 
 /// A residual below this many times what round-off may leave is round-off.
 const ROUNDED: f64 = 4.0;
-
-/// However far bodies that float move, their states are judged to this at least.
-const ROUGHEST: f64 = 1e-9;
 
 /// What is left of what the laws miss at rest where a state answers it.
 const ANSWERED: f64 = 1e-3;
@@ -79,7 +76,7 @@ impl<'a> Run<'a> {
         let state = Iterate::new(
             &judge,
             vec![0.0; problem.unknowns()],
-            vec![0.0; problem.free_modes()],
+            Motion::of(vec![0.0; problem.free_modes()]),
         );
         let finish = Finish::new(problem);
         Self {
@@ -109,19 +106,14 @@ impl<'a> Run<'a> {
     }
 
     /// Starts from a state that is likely near, with a finish where sweeps need not be run; its
-    /// first step takes each contact's state from `displacement`, if that is known.
-    pub(super) fn begin_from(
-        &mut self,
-        reaction: &[f64],
-        motion: &[f64],
-        displacement: Option<&[f64]>,
-    ) {
+    /// first step takes each contact's state from a displacement beyond the gaps, if that is known.
+    pub(super) fn begin_from(&mut self, reaction: &[f64], motion: &[f64], beyond: Option<&[f64]>) {
         self.state.reaction = reaction.to_vec();
-        self.state.motion = motion.to_vec();
+        self.state.motion = Motion::of(motion.to_vec());
         self.judge();
         // Rest may be a state too, but it is not the one that is asked for.
         self.best = self.state.clone();
-        self.newton_steps(displacement);
+        self.newton_steps(beyond);
     }
 
     /// The judge's residual of the best state is at most the tolerance, and not for want of digits only.
@@ -129,22 +121,8 @@ impl<'a> Run<'a> {
         self.is_within() && !self.is_unanswered()
     }
 
-    /// Equilibrium to the tolerance; the laws as well, or to what the rounding of rigid motions leaves of them.
     fn is_within(&self) -> bool {
-        let (found, tolerance) = (&self.best.verdict.certificate, self.settings.tolerance);
-        found.equilibrium.scaled <= tolerance
-            && (found.natural_map <= tolerance
-                || found.natural_map <= self.rounding().min(ROUGHEST))
-    }
-
-    /// What the rounding of rigid motions alone may leave of the natural map.
-    fn rounding(&self) -> f64 {
-        let (reaction, motion) = (&self.best.reaction, &self.best.motion);
-        let size = reaction.iter().fold(0.0_f64, |size, t| size.hypot(*t));
-        match &self.finish {
-            Some(finish) if size > 0.0 => finish.rounding(reaction, motion) / size,
-            _ => 0.0,
-        }
+        self.best.residual() <= self.settings.tolerance
     }
 
     /// Residuals are relative to the reaction. One that grows without bound, where only the last digits of G
@@ -269,7 +247,7 @@ impl<'a> Run<'a> {
             if self.is_solved() || idle == NEWTON_STEPS.1 || self.is_over() {
                 break;
             }
-            let states = near.take().unwrap_or(&trial.verdict.displacement);
+            let states = near.take().unwrap_or(&trial.verdict.beyond);
             let springs = Springs {
                 softness: 0.0,
                 anchor: &trial.reaction,
@@ -318,10 +296,7 @@ impl<'a> Run<'a> {
             return Some(over);
         }
         let sweeps = self.work.sweeps - self.found;
-        let floor = self
-            .judge
-            .round_off(&self.best.reaction)
-            .max(self.rounding());
+        let floor = self.judge.round_off(&self.best.reaction);
         if self.best.residual() <= ROUNDED * floor {
             return Some(Shortfall::RoundOff { floor });
         }
@@ -353,7 +328,8 @@ impl<'a> Run<'a> {
             shortfall: (status == Status::NotConverged).then_some(shortfall),
             condition,
             reaction: self.best.reaction,
-            motion: self.best.motion,
+            motion: self.best.motion.amplitudes,
+            motion_left_out: self.best.motion.left_out,
             failure: self.failure,
             verdict: self.best.verdict,
             history: self.history,
@@ -396,7 +372,7 @@ mod tests {
     use faer::mat;
 
     use crate::alternation::{Interrupt, Outcome, Settings, Shortfall, Status, solve};
-    use crate::problem::{ContactProblem, Operator};
+    use crate::problem::{ContactProblem, Floating, Operator};
 
     /// G = [[1, −1], [−1, 2]], û = (0.25, 0.5), μ = ½: slips with t = (−½, −¼).
     fn solved(settings: &Settings) -> Outcome {
@@ -444,5 +420,62 @@ mod tests {
             ..Settings::default()
         };
         assert_eq!(solved(&settings).shortfall, Some(Shortfall::Interrupted));
+    }
+
+    /// Two smooth contacts of compliance ½ and ¼ m/N under a rigid lid that sinks and tilts.
+    fn lid(load: [f64; 2]) -> Outcome {
+        let operator = Operator::from_compliance(mat![[0.5, 0.0], [0.0, 0.25]]).unwrap();
+        let zero = vec![0.0; 2];
+        let problem =
+            ContactProblem::new(&[0, 0], zero.clone(), zero.clone(), zero, operator).unwrap();
+        let floating = Floating::new(mat![[1.0, 1.0], [1.0, -1.0]], load.to_vec()).unwrap();
+        solve(&problem.float(floating).unwrap(), &Settings::default()).unwrap()
+    }
+
+    #[test]
+    fn a_lid_that_only_contact_holds_is_one_program() {
+        // t_1 + t_2 + 6 = 0, t_1 − t_2 + 2 = 0; u = G t + (α + β, α − β) = 0.
+        let found = lid([6.0, 2.0]);
+        assert_eq!(found.status, Status::Certified);
+        let close = |found: &[f64], expected: [f64; 2]| {
+            let apart = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+            assert!(apart < 1e-11, "{found:?}");
+        };
+        close(&found.reaction, [-4.0, -2.0]);
+        close(&found.motion, [1.25, 0.75]);
+        let work = found.work;
+        assert!((work.sweeps, work.coulomb_programs) == (1, 1), "{work:?}");
+        assert!(
+            work.normal_programs == 0 && work.newton_steps <= 2,
+            "{work:?}"
+        );
+    }
+
+    #[test]
+    fn a_lid_that_tilts_over_its_edge_has_no_equilibrium() {
+        // t_1 = −4, t_2 = +1: it would have to be held down at the second contact, by 1 N.
+        let found = lid([3.0, 5.0]);
+        assert_eq!(found.status, Status::NoEquilibrium);
+        let failure = found.failure.unwrap();
+        assert!(!failure.elastic && failure.opening == [1], "{failure:?}");
+        assert!((failure.missing - 1.0).abs() < 1e-9, "{failure:?}");
+    }
+
+    #[test]
+    fn a_motion_far_beyond_its_indentation_is_certified_to_the_tolerance() {
+        // A lid a metre above two contacts, 6e-10 N of weight: α = 1 m + 1.25e-10 m, of which a double keeps six digits.
+        let operator = Operator::from_compliance(mat![[0.5, 0.0], [0.0, 0.25]]).unwrap();
+        let (zero, gap) = (vec![0.0; 2], vec![1.0; 2]);
+        let problem = ContactProblem::new(&[0, 0], zero.clone(), gap, zero, operator).unwrap();
+        let floating = Floating::new(mat![[1.0, 1.0], [1.0, -1.0]], vec![6e-10, 2e-10]).unwrap();
+        let problem = problem.float(floating).unwrap();
+        let found = solve(&problem, &Settings::default()).unwrap();
+        assert_eq!(found.status, Status::Certified);
+        assert!(found.verdict.certificate.natural_map <= 1e-12);
+        // t as above, in units of 1e-10 N; α = 1 + 1.25e-10 m to the last digit, and beyond it.
+        assert!((found.reaction[0] / 1e-10 + 4.0).abs() < 1e-11);
+        assert!((found.motion[0] - 1.0 - 1.25e-10).abs() < 3e-16);
+        let indented = (found.motion[0] - 1.0) + found.motion_left_out[0];
+        assert!((indented / 1e-10 - 1.25).abs() < 1e-11, "{indented:e}");
     }
 }

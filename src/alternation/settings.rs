@@ -9,9 +9,7 @@ use crate::error::Error;
 /// Settings of the outer loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// Largest residual that counts as solved. Between bodies that float and move far beside what their contacts
-    /// indent (own weight on facets) the rounding of the motion may leave more of the natural map than that, and up
-    /// to 1e-9 of it is accepted then.
+    /// Largest residual that counts as solved.
     pub tolerance: f64,
     /// Sweeps after which the solve gives up.
     pub max_sweeps: usize,

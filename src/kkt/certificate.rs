@@ -103,6 +103,8 @@ impl Certificate {
 pub struct Verdict {
     /// Displacement `u = û + G t + R α` per unknown, in metre.
     pub displacement: Vec<f64>,
+    /// The same beyond the gaps, `u_N − g₀` and `u_T`, in metre: where both are large, this has their digits.
+    pub beyond: Vec<f64>,
     /// What each contact does.
     pub status: Vec<ContactStatus>,
     /// The residuals.

@@ -1,7 +1,8 @@
 //! Displacements in twice the digits, for where plain sums lose what the judge looks for.
 //!
 //! A slender body would move by kilometres without its contacts: `û` and `G t` then agree in most of
-//! their digits, and the rounding of either hides `u = û + G t + R α`. Products and sums whose
+//! their digits, and the rounding of either hides `u = û + G t + R α`; a body that falls by a metre and indents
+//! what it falls on by a picometre leaves no digits to `u_N − g₀`. Products and sums whose
 //! rounding errors are summed beside them give it as if computed in twice the precision
 //! (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955–1988, algorithm 5.3).
 
@@ -29,25 +30,55 @@ impl Deep {
     }
 }
 
-/// `û + G t + R α`, in metre per unknown.
-pub(super) fn deep_displacement(
-    problem: &ContactProblem,
-    reaction: &[f64],
-    motion: &[f64],
-) -> Vec<f64> {
+/// Where contacts are, with the digits of [`deep_place`].
+#[derive(Clone, Debug)]
+pub(super) struct Place {
+    /// `u`, in metre per unknown.
+    pub(super) displacement: Vec<f64>,
+    /// `u_N − g₀` and `u_T`, in metre per unknown.
+    pub(super) beyond: Vec<f64>,
+}
+
+impl Place {
+    /// What a displacement is beyond the gaps.
+    pub(super) fn of(problem: &ContactProblem, displacement: Vec<f64>) -> Self {
+        let mut beyond = displacement.clone();
+        for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
+            beyond[n] -= gap;
+        }
+        Self {
+            displacement,
+            beyond,
+        }
+    }
+}
+
+/// `û + G t + R (α + β)`, and the same without the gaps, where β is what the rounding of α left out.
+pub(super) fn deep_place(problem: &ContactProblem, reaction: &[f64], motion: [&[f64]; 2]) -> Place {
     let mut sums = vec![Deep::default(); reaction.len()];
     for (sum, free) in sums.iter_mut().zip(problem.free_displacement()) {
         sum.add(*free);
     }
     let modes = problem.floating().map(|floating| floating.modes());
-    let rigid = modes.iter().flat_map(|modes| modes.col_iter()).zip(motion);
-    let columns = problem.compliance().col_iter().zip(reaction).chain(rigid);
+    let moved = motion.into_iter().flat_map(|part| {
+        let columns = modes.iter().flat_map(|modes| modes.col_iter());
+        columns.zip(part)
+    });
+    let columns = problem.compliance().col_iter().zip(reaction).chain(moved);
     for (column, &amount) in columns.filter(|(_, amount)| **amount != 0.0) {
         for (sum, entry) in sums.iter_mut().zip(column.iter()) {
             sum.add_product(*entry, amount);
         }
     }
-    sums.iter().map(|sum| sum.sum + sum.lost).collect()
+    let rounded = |sums: &[Deep]| sums.iter().map(|sum| sum.sum + sum.lost).collect();
+    let displacement = rounded(&sums);
+    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
+        sums[n].add(-gap);
+    }
+    Place {
+        displacement,
+        beyond: rounded(&sums),
+    }
 }
 
 #[cfg(test)]
@@ -67,8 +98,20 @@ mod tests {
             ContactProblem::new(&[0, 0], zero.clone(), zero, vec![1.0; 2], operator).unwrap();
         let floating = Floating::new(mat![[1.0], [0.0]], vec![0.0]).unwrap();
         let problem = problem.float(floating).unwrap();
-        let found = deep_displacement(&problem, &[-1.0, 1.0], &[0.5]);
-        assert_eq!(found, [1.5, 1.0]);
+        let found = deep_place(&problem, &[-1.0, 1.0], [&[0.5], &[0.0]]);
+        assert_eq!(found.displacement, [1.5, 1.0]);
+    }
+
+    #[test]
+    fn an_indentation_far_below_the_digits_of_a_motion_is_kept() {
+        // u_N − g₀ = t + (1 + 2⁻⁶⁰) − 1 with t = −2⁻⁶¹: neither 1 + 2⁻⁶⁰ nor u_N is a double.
+        let tiny = 2.0_f64.powi(-61);
+        let operator = Operator::from_compliance(mat![[1.0]]).unwrap();
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![1.0], vec![0.0], operator).unwrap();
+        let floating = Floating::new(mat![[1.0]], vec![tiny]).unwrap();
+        let problem = problem.float(floating).unwrap();
+        let found = deep_place(&problem, &[-tiny], [&[1.0], &[2.0 * tiny]]);
+        assert_eq!((found.displacement[0], found.beyond[0]), (1.0, tiny));
     }
 
     #[test]
@@ -79,7 +122,7 @@ mod tests {
         let free = vec![-1.0 - 2.0 * tiny];
         let problem = ContactProblem::new(&[0], vec![0.0], vec![0.0], free, operator).unwrap();
         assert_eq!(
-            deep_displacement(&problem, &[1.0 + tiny], &[]),
+            deep_place(&problem, &[1.0 + tiny], [&[], &[]]).displacement,
             [tiny * tiny]
         );
     }

@@ -3,7 +3,7 @@
 use super::bipotential::bipotential_gap;
 use super::certificate::{Certificate, ContactStatus, Defect, Verdict, Worst, ratio};
 use super::coulomb::coulomb_residual;
-use super::depth::deep_displacement;
+use super::depth::{Place, deep_place};
 use super::floating::unanswered;
 use super::natural_map::{largest, largest_block, norm};
 use super::scales::{Scales, compliance_product, dot, local_force};
@@ -44,22 +44,36 @@ impl<'a> Judge<'a> {
     /// sums leave no more than their own rounding, displacements are summed in twice the digits.
     #[must_use]
     pub fn measure_floating(&self, reaction: &[f64], motion: &[f64]) -> Verdict {
-        let fits =
-            reaction.len() == self.problem.unknowns() && motion.len() == self.problem.free_modes();
-        if !fits || largest(reaction).max(largest(motion)).is_infinite() {
+        self.measure_moved(reaction, motion, &vec![0.0; motion.len()])
+    }
+
+    /// The same with what the rounding of a motion left out, in metre per free mode: bodies that move far beside
+    /// what their contacts indent have no motion of double precision that answers the laws to the last digits.
+    #[must_use]
+    pub fn measure_moved(&self, reaction: &[f64], motion: &[f64], left_out: &[f64]) -> Verdict {
+        let modes = self.problem.free_modes();
+        let fits = reaction.len() == self.problem.unknowns()
+            && (motion.len(), left_out.len()) == (modes, modes);
+        let size = largest(reaction)
+            .max(largest(motion))
+            .max(largest(left_out));
+        if !fits || size.is_infinite() {
             return self.no_state();
         }
         let response = compliance_product(self.problem.compliance(), reaction);
-        let plain = self.verdict(
-            reaction,
-            &response,
-            self.plain_displacement(&response, motion),
-        );
+        let rigid = self.rigid_displacement(motion);
+        let free = self.problem.free_displacement().iter();
+        let moved = free.zip(&response).zip(&rigid);
+        let place = Place::of(self.problem, moved.map(|((a, b), c)| a + b + c).collect());
+        let plain = self.verdict(reaction, &response, place);
         let measured = plain.certificate.natural_map;
-        if measured <= SEEN || measured > self.rounding(reaction) {
+        let rounded = self.rounding(reaction);
+        let moved = self.motion_rounding(reaction, &rigid);
+        let seen = measured <= SEEN && moved <= SEEN;
+        if seen || measured > rounded + moved {
             return plain;
         }
-        let deep = deep_displacement(self.problem, reaction, motion);
+        let deep = deep_place(self.problem, reaction, [motion, left_out]);
         self.verdict(reaction, &response, deep)
     }
 
@@ -84,26 +98,33 @@ impl<'a> Judge<'a> {
         terms * f64::EPSILON * ratio(self.scales.terms, self.size(reaction))
     }
 
+    /// The same of the sum over the free modes, and of the gaps that it closes.
+    fn motion_rounding(&self, reaction: &[f64], rigid: &[f64]) -> f64 {
+        let moved = local_force(self.problem.offsets(), rigid, &self.scales.steps);
+        let terms = 2.0 + self.problem.free_modes() as f64;
+        terms * f64::EPSILON * ratio(norm(&moved), self.size(reaction))
+    }
+
     /// What residuals in newton are relative to.
     fn size(&self, reaction: &[f64]) -> f64 {
         norm(reaction).max(self.scales.force_norm)
     }
 
-    fn plain_displacement(&self, response: &[f64], motion: &[f64]) -> Vec<f64> {
-        let free = self.problem.free_displacement();
-        let mut displacement: Vec<f64> = free.iter().zip(response).map(|(a, b)| a + b).collect();
+    /// `R α`, in metre per unknown.
+    fn rigid_displacement(&self, motion: &[f64]) -> Vec<f64> {
+        let mut rigid = vec![0.0; self.problem.unknowns()];
         if let Some(floating) = self.problem.floating() {
             for (mode, amplitude) in floating.modes().col_iter().zip(motion) {
-                for (u, r) in displacement.iter_mut().zip(mode.iter()) {
+                for (u, r) in rigid.iter_mut().zip(mode.iter()) {
                     *u += r * amplitude;
                 }
             }
         }
-        displacement
+        rigid
     }
 
-    fn verdict(&self, reaction: &[f64], response: &[f64], displacement: Vec<f64>) -> Verdict {
-        let states = contact_states(self.problem, reaction, &displacement);
+    fn verdict(&self, reaction: &[f64], response: &[f64], place: Place) -> Verdict {
+        let states = contact_states(self.problem, reaction, &place.beyond);
         let steps = self.scales.steps.iter();
         Verdict {
             status: steps
@@ -111,7 +132,8 @@ impl<'a> Judge<'a> {
                 .map(|(step, state)| step.status(state))
                 .collect(),
             certificate: self.certificate(reaction, response, &states),
-            displacement,
+            displacement: place.displacement,
+            beyond: place.beyond,
         }
     }
 
@@ -162,6 +184,7 @@ impl<'a> Judge<'a> {
         };
         Verdict {
             displacement: vec![f64::INFINITY; self.problem.unknowns()],
+            beyond: vec![f64::INFINITY; self.problem.unknowns()],
             status: vec![ContactStatus::Open; self.problem.contacts()],
             certificate: Certificate {
                 natural_map: f64::INFINITY,
@@ -233,6 +256,26 @@ mod tests {
         assert_eq!((found.natural_map, found.residual()), (0.25, 0.25));
         // Without its motion it is no state of a floating body.
         assert!(judge.measure(&[-3.0]).certificate.residual().is_infinite());
+    }
+
+    #[test]
+    fn a_motion_a_quadrillion_times_the_indentation_is_judged_with_what_rounding_left_out() {
+        // G = 1 m/N, a gap of 1 m, 2⁻⁶⁰ N: t = −2⁻⁶⁰, and u_N = t + α = 1 with α = 1 + 2⁻⁶⁰.
+        let tiny = 2.0_f64.powi(-60);
+        let operator = Operator::from_compliance(mat![[1.0]]).unwrap();
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![1.0], vec![0.0], operator).unwrap();
+        let floating = Floating::new(mat![[1.0]], vec![tiny]).unwrap();
+        let problem = problem.float(floating).unwrap();
+        let judge = Judge::new(&problem);
+        let whole = judge.measure_moved(&[-tiny], &[1.0], &[tiny]);
+        assert_eq!((whole.certificate.residual(), whole.beyond[0]), (0.0, 0.0));
+        // Without it the contact is open by as much as it should be indented.
+        let rounded = judge.measure_floating(&[-tiny], &[1.0]);
+        assert_eq!(rounded.certificate.natural_map, 1.0);
+        assert_eq!(
+            judge.measure_moved(&[-tiny], &[1.0], &[]).status,
+            judge.no_state().status
+        );
     }
 
     #[test]

@@ -35,22 +35,22 @@ pub(super) fn length([v_1, v_2]: [f64; 2]) -> f64 {
     v_1.hypot(v_2)
 }
 
-/// Cuts reactions and displacements into the states of the contacts.
+/// Cuts reactions, and displacements beyond the gaps, into the states of the contacts.
 pub(super) fn contact_states(
     problem: &ContactProblem,
     reaction: &[f64],
-    displacement: &[f64],
+    beyond: &[f64],
 ) -> Vec<ContactState> {
     let blocks = problem.offsets().windows(2);
     blocks
-        .zip(problem.friction().iter().zip(problem.initial_gap()))
-        .map(|(ends, (&friction, initial_gap))| {
-            let (t, u) = (&reaction[ends[0]..ends[1]], &displacement[ends[0]..ends[1]]);
+        .zip(problem.friction())
+        .map(|(ends, &friction)| {
+            let (t, u) = (&reaction[ends[0]..ends[1]], &beyond[ends[0]..ends[1]]);
             ContactState {
                 friction,
                 normal_reaction: t[0],
                 tangential_reaction: tangents(t),
-                overlap: u[0] - initial_gap,
+                overlap: u[0],
                 slip: tangents(u),
             }
         })
@@ -78,15 +78,15 @@ mod tests {
         let problem =
             ContactProblem::new(&[0, 1, 2], friction, gaps, vec![0.0; 6], operator).unwrap();
         let reaction = [-1.0, -2.0, 20.0, -3.0, 30.0, 31.0];
-        let displacement = [0.1, 0.2, 2.0, 0.3, 3.0, 3.1];
-        let states = contact_states(&problem, &reaction, &displacement);
+        let beyond = [0.1, 0.2, 2.0, 0.3, 3.0, 3.1];
+        let states = contact_states(&problem, &reaction, &beyond);
         assert_eq!(states[0].tangential_reaction, [0.0, 0.0]);
         assert_eq!(states[1].slip, [2.0, 0.0]);
         let last = ContactState {
             friction: 0.5,
             normal_reaction: -3.0,
             tangential_reaction: [30.0, 31.0],
-            overlap: 0.3 - 3.0,
+            overlap: 0.3,
             slip: [3.0, 3.1],
         };
         assert_eq!(states[2], last);

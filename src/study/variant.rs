@@ -331,6 +331,7 @@ impl<'a> Run<'a> {
             condition: None,
             reaction,
             motion: Vec::new(),
+            motion_left_out: Vec::new(),
             failure: None,
             verdict,
             history: self.history,

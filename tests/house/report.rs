@@ -141,6 +141,7 @@ impl Row {
                 condition: None,
                 reaction,
                 motion: Vec::new(),
+                motion_left_out: vec![],
                 failure: None,
                 verdict,
                 history: vec![sweep],
