@@ -28,6 +28,7 @@ mod float;
 mod gauss_seidel;
 mod history;
 mod iterate;
+mod last_digits;
 mod laws;
 mod path;
 mod prediction;

@@ -37,6 +37,9 @@ const ROUNDED: f64 = 4.0;
 /// What is left of what the laws miss at rest where a state answers it.
 const ANSWERED: f64 = 1e-3;
 
+/// Reactions of more than so many times what acts at rest may grow without bound.
+const UNBOUNDED: f64 = 1e3;
+
 /// A solve in progress.
 pub(super) struct Run<'a> {
     pub(super) problem: &'a ContactProblem,
@@ -125,10 +128,11 @@ impl<'a> Run<'a> {
         self.best.residual() <= self.settings.tolerance
     }
 
-    /// Residuals are relative to the reaction. One that grows without bound, where only the last digits of G
-    /// resist it, answers nothing.
+    /// Residuals are relative to the reaction. One that grows without bound, with hardly anything that resists it,
+    /// answers nothing.
     fn is_unanswered(&self) -> bool {
-        self.is_within() && self.best.residual() * self.excess() > ANSWERED
+        let excess = self.excess();
+        self.is_within() && excess > UNBOUNDED && self.best.residual() * excess > ANSWERED
     }
 
     /// The reaction over what acts on the contacts at rest.
@@ -318,7 +322,7 @@ impl<'a> Run<'a> {
         };
         let condition = self.finish.as_ref().and_then(Finish::condition);
         let shortfall = match self.shortfall {
-            _ if self.is_unanswered() => Shortfall::IllConditioned {
+            _ if self.is_unanswered() && self.hangs_on_last_digits() => Shortfall::IllConditioned {
                 excess: self.excess(),
             },
             known => known.unwrap_or(Shortfall::SweepLimit),

@@ -163,6 +163,14 @@ impl ContactProblem {
         })
     }
 
+    /// The same problem with another operator of its size.
+    pub(crate) fn with_operator(&self, operator: Operator) -> Self {
+        Self {
+            operator: Arc::new(operator),
+            ..self.clone()
+        }
+    }
+
     /// The same problem with other gaps before loading, in metre per contact.
     ///
     /// # Errors

@@ -14,3 +14,4 @@ mod random_equilibria;
 mod random_problems;
 mod random_stacks;
 mod rates;
+mod reasons;
