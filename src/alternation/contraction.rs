@@ -238,4 +238,21 @@ mod tests {
         // What sticks does not see how much friction there is.
         assert_eq!(found.critical, None);
     }
+
+    #[test]
+    fn a_contact_that_slips_gives_back_its_friction_times_its_coupling() {
+        // Slipping: δt_T = μ δt_N, δt_N' = −(G_NT/G_NN) δt_T: 0.2 · ½ of G = [[1, ½], [½, 2]]; t_N = −1/1.1.
+        let operator = Operator::from_compliance(mat![[1.0, 0.5], [0.5, 2.0]]).unwrap();
+        let free = vec![1.0, 3.0];
+        let problem = ContactProblem::new(&[1], vec![0.2], vec![0.0], free, operator).unwrap();
+        let outcome = solve(&problem, &Settings::default()).unwrap();
+        assert!((outcome.reaction[0] + 1.0 / 1.1).abs() < 1e-12);
+        let found = contraction(&problem, &outcome).unwrap();
+        assert!((found.factor - 0.1).abs() < 1e-12, "{found:?}");
+        // Ten times the friction, halved to ln 1024 / 2¹³ of it.
+        assert!(
+            (found.critical.unwrap() / 10.0 - 1.0).abs() < 1e-3,
+            "{found:?}"
+        );
+    }
 }

@@ -132,7 +132,7 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
-    use faer::mat;
+    use faer::{Mat, mat};
 
     use super::*;
     use crate::problem::Operator;
@@ -147,5 +147,32 @@ mod tests {
         let mut reaction = vec![0.0; 2];
         assert_eq!(GaussSeidel::new(&problem).pass(&mut reaction), 1.0);
         assert_eq!(reaction, [-0.25, -0.125]);
+    }
+
+    #[test]
+    fn friction_in_space_is_brought_back_to_its_disc() {
+        // G = 1, û = (1, 3, 4), μ = 1: t_N = −1, and (−3, −4) is five times what the disc holds.
+        let operator = Operator::from_compliance(Mat::identity(3, 3)).unwrap();
+        let free = vec![1.0, 3.0, 4.0];
+        let problem = ContactProblem::new(&[2], vec![1.0], vec![0.0], free, operator).unwrap();
+        let mut reaction = vec![0.0; 3];
+        GaussSeidel::new(&problem).pass(&mut reaction);
+        for (found, expected) in reaction.iter().zip([-1.0, -0.6, -0.8]) {
+            assert!((found - expected).abs() < 1e-15, "{reaction:?}");
+        }
+    }
+
+    #[test]
+    fn a_contact_sees_what_the_one_before_it_became() {
+        // Smooth, G = [[2, 1], [1, 2]], û = (3, 3): −3/2, then −(3 − 3/2)/2; in the end −1 both.
+        let operator = Operator::from_compliance(mat![[2.0, 1.0], [1.0, 2.0]]).unwrap();
+        let (zero, free) = (vec![0.0; 2], vec![3.0; 2]);
+        let problem = ContactProblem::new(&[0, 0], zero.clone(), zero, free, operator).unwrap();
+        let (passes, mut reaction) = (GaussSeidel::new(&problem), vec![0.0; 2]);
+        passes.pass(&mut reaction);
+        assert_eq!(reaction, [-1.5, -0.75]);
+        // The error falls to a quarter per pass.
+        let change = (0..24).map(|_| passes.pass(&mut reaction)).last();
+        assert!(change.unwrap() < 1e-13 && (reaction[0] + 1.0).abs() < 1e-13);
     }
 }

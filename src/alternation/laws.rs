@@ -147,3 +147,60 @@ pub(super) fn roots(problem: &ContactProblem) -> Vec<f64> {
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// With μ = ½ between scaled numbers, without springs.
+    fn local(reaction: [f64; 3], beyond: [f64; 3]) -> Local {
+        Local {
+            reaction,
+            beyond,
+            friction: 0.5,
+            step: 1.0,
+        }
+    }
+
+    #[test]
+    fn a_trial_point_tells_what_a_contact_does_and_what_it_misses() {
+        // p_N = −1 + 2 > 0: open, and 1 is pressed for nothing.
+        let open = local([-1.0, 0.0, 0.0], [-2.0, 0.0, 0.0]);
+        assert!(open.law(0, 0..3).is_none());
+        assert_eq!(open.defect(), [-1.0, 0.0, 0.0]);
+        // p = (−4, 1, 0) is in its disc of 2: overlap and slip are what is wrong.
+        let stick = local([-3.0, 1.5, 0.0], [1.0, 0.5, 0.0]);
+        assert_eq!(stick.defect(), [1.0, 0.5, 0.0]);
+        // p_T = (3, 4) on a disc of 2: friction should be (1.2, 1.6).
+        let slip = local([-4.0, 3.0, 3.0], [0.0, 0.0, -1.0]);
+        let left = slip.defect();
+        assert!((left[1] - 1.8).abs() < 1e-15 && (left[2] - 1.4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_law_of_slip_is_kept_by_a_solution_and_by_its_neighbours_to_first_order() {
+        // t = (−4, 1.2, 1.6) slips by (−1.8, −2.4): p_T = (3, 4). Pressed by 2 h more it rubs by h more; it
+        // slips by 5 h more, along a direction turned by h.
+        let at = |h: f64| {
+            let (sin, cos) = h.sin_cos();
+            let d = [0.6 * cos - 0.8 * sin, 0.8 * cos + 0.6 * sin];
+            let (t, u) = (2.0 + h, 3.0 + 5.0 * h);
+            let reaction = [-4.0 - 2.0 * h, t * d[0], t * d[1]];
+            local(reaction, [0.0, -u * d[0], -u * d[1]])
+        };
+        let law = at(0.0).law(0, 0..3);
+        let size = |h: f64| {
+            let missing = law
+                .as_ref()
+                .map_or([f64::NAN; 3], |law| law.missing(&at(h)));
+            missing.iter().fold(0.0_f64, |size, x| size.hypot(*x))
+        };
+        assert!(size(0.0) < 1e-14);
+        // Second order: a tenth of the step misses a hundredth.
+        let (far, near) = (size(1e-3), size(1e-4));
+        assert!(
+            far < 1e-4 && (far / near - 100.0).abs() < 2.0,
+            "{far:e} {near:e}"
+        );
+    }
+}

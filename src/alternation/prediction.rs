@@ -125,4 +125,15 @@ mod tests {
             [Role::Free, Role::Cone, Role::Absent, Role::Cone]
         );
     }
+
+    #[test]
+    fn where_all_are_decided_the_least_decided_contact_keeps_its_cone() {
+        // Smooth: pressed by 4 and by 5.
+        let operator = Operator::from_compliance(Mat::identity(2, 2)).unwrap();
+        let zero = vec![0.0; 2];
+        let problem =
+            ContactProblem::new(&[0, 0], zero.clone(), zero.clone(), zero, operator).unwrap();
+        let found = Roles::predict(&problem, &[-4.0, -5.0], &[0.0; 2]);
+        assert_eq!(found.normal, [Role::Cone, Role::Free]);
+    }
 }

@@ -245,4 +245,32 @@ mod tests {
         close(edges[0].value, 0.75);
         close(piece.last(0.25)[1], -0.25);
     }
+
+    #[test]
+    fn a_slipping_contact_sticks_where_its_motion_turns_and_an_open_one_closes() {
+        // G = 1, û = (1, 0), h = (0, 1), μ = ½, friction against u_T > 0: t = (−1, −½), u_T = λ − ½.
+        let of = |free: Vec<f64>, drive, does| {
+            let operator = Operator::from_compliance(Mat::identity(2, 2)).unwrap();
+            let problem = ContactProblem::new(&[1], vec![0.5], vec![0.0], free, operator).unwrap();
+            let piece = Piece {
+                problem: &problem,
+                drive,
+                does: vec![does],
+            };
+            piece.conditions(&piece.line(0.75).unwrap(), 0)
+        };
+        let close =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-11, "{found}");
+        let slips = of(vec![1.0, 0.0], col![0.0, 1.0], Does::Slip(-1.0)).map(Option::unwrap);
+        assert_eq!(slips.map(|edge| edge.beyond), [Does::Open, Does::Stick]);
+        close(slips[0].value, 1.0);
+        close(slips[1].value, 0.25);
+        close(slips[1].rate, 1.0);
+        // û = (−1, 2) with h = (1, 0): a gap of 1 − λ, and it will slip against u_T = 2.
+        let [open, none] = of(vec![-1.0, 2.0], col![1.0, 0.0], Does::Open);
+        let open = open.unwrap();
+        assert!(none.is_none() && open.beyond == Does::Slip(-1.0));
+        close(open.value, 0.25);
+        close(open.rate, -1.0);
+    }
 }
