@@ -39,7 +39,7 @@
 //! | bodies that are in each other | `overlap` |
 //! | Gauss points over a polygon | `quadrature` |
 //! | functions on facets that are covered in part (C19) | `patch`; in 2D `trim`, `join` |
-//! | the same in 3D (C21) | `tiling`: `tile`, `standing`, `spread` |
+//! | the same in 3D (C21) | `tiling`: `tile`, `standing`, `spread`; of equals the first: `ties` |
 //! | integrals and projection of a patch (C7), (C8) | `projection` |
 //! | sum over the patches (C9), gaps (C20) | `coupling` |
 //! | forces that meet on one line (C10) | `alignment` |
@@ -66,6 +66,7 @@ mod spread;
 mod standing;
 #[cfg(test)]
 mod tests;
+mod ties;
 mod tile;
 mod tiling;
 mod trim;

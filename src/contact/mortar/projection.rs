@@ -16,13 +16,15 @@
 //! does not go on from one to the other, and a single projection would go across. They are biorthogonal on each
 //! piece, hence on the facet.
 
+use std::borrow::Cow;
+
 use nalgebra::Vector3;
 
 use super::cover::Part;
 use super::coverage::{Coverage, Seen};
 use super::patch::{MOST_CONTACTS, Member, Patch};
 use super::pieces::Piece;
-use super::polygon::Point;
+use super::polygon::{Point, centroid};
 use super::quadrature::{LINEAR, integrate, points_for};
 use super::view::Outline;
 use crate::body::{Facet, MOST_FACET_NODES, Mesh, Model, around};
@@ -108,9 +110,28 @@ impl Place<'_> {
             _ => LINEAR,
         };
         let higher = piece.is_quadratic() || across.is_quadratic() || model == Model::Axisymmetric;
-        let round = self.coverage.one.bulges.is_round(piece.number)
-            || self.coverage.two.bulges.is_round(across.number);
-        points + usize::from(higher || round)
+        points + usize::from(higher || self.is_round())
+    }
+
+    fn is_round(&self) -> bool {
+        let (one, two) = (self.coverage.one, self.coverage.two);
+        one.bulges.is_round(self.piece.number) || two.bulges.is_round(self.across().number)
+    }
+
+    /// What is integrated over, for triangles between its first point and its edges. What bulges is no polynomial:
+    /// in space they go around the middle, so that it does not matter which corner comes first.
+    fn polygon(&self) -> Cow<'_, [Point]> {
+        let corners = &self.part.polygon;
+        match corners.first() {
+            Some(first) if self.is_round() && self.coverage.one.mesh.dimension == 3 => {
+                let around = corners.iter().chain([first]);
+                std::iter::once(&centroid(corners))
+                    .chain(around)
+                    .copied()
+                    .collect()
+            }
+            _ => Cow::Borrowed(corners),
+        }
     }
 
     /// Both sides at a point of the piece's plane.
@@ -159,7 +180,7 @@ impl Integrals {
         let around = around(model);
         let (mut own, mut across) = ([[0.0; 4]; MOST_FACET_NODES], [[0.0; 4]; MOST_FACET_NODES]);
         let mut least = self.sums.least;
-        integrate(&part.polygon, place.points(model), |at, share| {
+        integrate(&place.polygon(), place.points(model), |at, share| {
             let of_piece = seen.outline.shape(at);
             let within = seen.outline.within(at, seen.outline.height(&of_piece));
             let stretch = share * seen.view.unit * around(seen.view.position(within));

@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 
 use super::check::Surface;
 use super::polygon::on_segment;
+use super::ties::EQUAL;
 use super::tile::Tile;
 
 /// Part of the way to a corner up to which the cover is too short for a contact: beyond it, the contact has half
@@ -45,7 +46,7 @@ pub(super) fn places(surface: &Surface<'_>, tiles: &[Tile]) -> HashMap<usize, Pl
         for (corner, &node) in surface.corners_of(tile.facet).iter().enumerate() {
             let found = place(tile, corner, surface.mesh.nodes[node].into());
             let known = places.entry(node).or_insert(found);
-            if found.distance < known.distance {
+            if found.distance < known.distance - EQUAL * tile.view.size {
                 *known = found;
             }
         }

@@ -8,6 +8,7 @@ use nalgebra::Vector3;
 
 use super::coverage::{Coverage, WHOLE};
 use super::polygon::{Point, Polygon, nearest};
+use super::ties::first_largest;
 use super::view::{Outline, View};
 use crate::body::Facet;
 
@@ -79,9 +80,7 @@ impl Tile {
         let from = self.outline.corners()[corner];
         let points = self.polygons.iter().map(|polygon| nearest(polygon, from));
         let distance = |at: &Point| (at - from).norm();
-        let at = points
-            .min_by(|a, b| distance(a).total_cmp(&distance(b)))
-            .unwrap_or(from);
+        let at = first_largest(points, |at| -distance(at)).unwrap_or(from);
         Nearest {
             at,
             distance: distance(&at),

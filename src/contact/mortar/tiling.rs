@@ -14,6 +14,7 @@ use super::polygon::{self, Point, Polygon};
 use super::quadrature::integrate;
 use super::spread::Spread;
 use super::standing::{Place, places};
+use super::ties::{EQUAL, first_largest};
 use super::tile::Tile;
 
 /// Part of a node's tributary area that is none.
@@ -117,8 +118,7 @@ impl<'a> Tiling<'a> {
             let values = spread.linear(centre).into_iter().take(3);
             values.fold(f64::INFINITY, f64::min)
         };
-        let triples = contacts.iter().filter_map(without);
-        triples.max_by(|a, b| least(a).total_cmp(&least(b)))
+        first_largest(contacts.iter().filter_map(without), least)
     }
 
     /// Gives the cover of tiles without enough contacts to their neighbours.
@@ -179,10 +179,18 @@ impl<'a> Tiling<'a> {
             .edges(tile)
             .flat_map(|edge| beside[&edge].iter().copied());
         let share = |tile: &usize| self.tiles[*tile].share;
-        let best = neighbours
-            .filter(goes_on)
-            .max_by(|a, b| share(a).total_cmp(&share(b)));
-        best.map(|best| self.carriers[best])
+        // Several are covered whole: of these the one that is nearest.
+        let near = |other: &usize| {
+            let own = middle(&self.tiles[tile].polygons).1;
+            let there = middle(&self.cover(*other, tile)).1;
+            -(there - own).norm()
+        };
+        let candidates: Vec<usize> = neighbours.filter(goes_on).collect();
+        let most = candidates.iter().map(share).fold(0.0, f64::max);
+        let best = candidates
+            .into_iter()
+            .filter(|tile| share(tile) >= most - EQUAL);
+        first_largest(best, near).map(|best| self.carriers[best])
     }
 
     fn patches(&self) -> Vec<Patch> {
