@@ -83,7 +83,7 @@ pub(crate) use study::{KnownTotal, StageSeconds};
 #[cfg(feature = "cli")]
 pub use study::{Part, StudiedMesh, StudiedRun, Study};
 pub use table::{Cell, Table};
-pub use totals::{PairTotals, Totals};
+pub use totals::{PairTotals, ReportedCoupling, Rounded, Totals};
 pub use trust::{Continuity, Trust};
 #[cfg(feature = "cli")]
 pub(crate) use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};

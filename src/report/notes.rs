@@ -6,9 +6,6 @@ use crate::kkt::ContactStatus;
 /// How many nodes a note names before it only counts them.
 const NAMED: usize = 5;
 
-/// Part of an overlap or an approach from which a note says what straight facets leave of it.
-const FACETED: f64 = 0.1;
-
 /// Round-off times condition from which a note says so, as a part of the reaction.
 const UNCERTAIN: f64 = 1e-8;
 
@@ -35,36 +32,8 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
              it, the true contact may go on beyond"
         ));
     }
-    for (index, pair) in parts.pairs.iter().enumerate() {
-        notes.extend(faceted(parts, index).map(|note| format!("{}: {note}", pair.place)));
-    }
     notes.extend(parts.outcome.condition.and_then(uncertain));
     notes
-}
-
-/// What straight facets add to the gaps of a pair that is not rounded, where that counts.
-///
-/// The mean of a bulge (C18) over a facet is two thirds of its sagitta: where those of both sides do not
-/// cancel, (2/3) |s₂ − s₁| is the error of an overlap or an approach.
-fn faceted(parts: &ReportParts<'_>, pair: usize) -> Option<String> {
-    if parts.pairs[pair].rounded {
-        return None;
-    }
-    let contacts = parts.surface.nodes.iter();
-    let pressed = contacts
-        .zip(&parts.outcome.verdict.status)
-        .filter(|(contact, status)| contact.pair == pair && **status != ContactStatus::Open);
-    let (mut bulge, mut moved) = (0.0_f64, 0.0_f64);
-    for (contact, _) in pressed {
-        bulge = bulge.max(contact.bulge.abs());
-        moved = moved.max(contact.initial_gap.abs());
-    }
-    (bulge > FACETED * moved).then(|| {
-        format!(
-            "straight facets stand {bulge:.1e} m off the curved surfaces that they mesh, where these overlap or \
-             approach each other by {moved:.1e} m; leave out `rounded: false`, refine, or use quadratic cells"
-        )
-    })
 }
 
 /// What a large condition of the compliance does to single reactions.

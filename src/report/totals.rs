@@ -6,7 +6,8 @@ use super::ReportParts;
 use super::certificate::{ReportedDefect, ReportedResultant, in_dimension};
 use super::contacts::ContactForce;
 use super::fit::ReportedPairFit;
-use crate::contact::ContactNode;
+use crate::body::Body;
+use crate::contact::{ContactNode, Coupling};
 use crate::kkt;
 use crate::kkt::ContactStatus;
 
@@ -50,9 +51,46 @@ pub struct PairTotals {
     pub totals: Totals,
     /// What the opposite body receives; `null` for a rigid obstacle.
     pub exchange: Option<ReportedExchange>,
+    /// Which of its sides carries the contacts, and what is rounded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<ReportedCoupling>,
     /// Whether its sides are in the state that is reported, by meshes and displacements.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fit: Option<ReportedPairFit>,
+}
+
+/// How the two sides of a pair see each other; see [`Coupling`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReportedCoupling {
+    /// Name of the body whose facets carry the contacts.
+    pub carried_by: String,
+    /// Facets that gaps take for smooth; none if every facet stands for itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rounded: Option<Rounded>,
+}
+
+/// Facets between which gaps are measured as between smooth surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Rounded {
+    /// Their number, on both sides.
+    pub facets: usize,
+    /// The farthest that the smooth surface stands off one of them, in metre.
+    pub largest_bulge: f64,
+}
+
+impl ReportedCoupling {
+    fn new(coupling: &Coupling, bodies: &[Body]) -> Self {
+        let name = bodies.get(coupling.body).map(|body| body.name.clone());
+        Self {
+            carried_by: name.unwrap_or_default(),
+            rounded: (coupling.rounded > 0).then_some(Rounded {
+                facets: coupling.rounded,
+                largest_bulge: coupling.largest_bulge,
+            }),
+        }
+    }
 }
 
 /// What the opposite body of a pair receives, and what is left of action and reaction; see
@@ -99,11 +137,15 @@ impl Totals {
         let dimension = parts.dimension();
         let fits = parts.fits.iter().map(|fit| Some(fit.into()));
         let fits = fits.chain(std::iter::repeat(None));
-        let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges).zip(fits);
-        let pairs = pairs.map(|(((pair, sums), exchange), fit)| PairTotals {
+        let couplings = parts.surface.couplings.iter();
+        let couplings = couplings.map(|one| Some(ReportedCoupling::new(one, parts.bodies)));
+        let judged = couplings.chain(std::iter::repeat(None)).zip(fits);
+        let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges).zip(judged);
+        let pairs = pairs.map(|(((pair, sums), exchange), (coupling, fit))| PairTotals {
             place: pair.place.clone(),
             totals: sums.totals(dimension, Vec::new()),
             exchange: ReportedExchange::new(exchange, dimension),
+            coupling,
             fit,
         });
         all.totals(dimension, pairs.collect())

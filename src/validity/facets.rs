@@ -62,14 +62,19 @@ pub(super) fn facets(
              wrong by tens of per cent; refine to below {COARSE:.0}"
         ));
     }
+    // Between smooth surfaces nothing is left of the sagittas.
+    let coupling = parts.surface.couplings.get(pair);
+    if coupling.is_some_and(|coupling| coupling.rounded > 0) {
+        return None;
+    }
     let off = 2.0 / 3.0 * bends.iter().map(|bend| bend.sagitta).sum::<f64>().abs();
     let moved = pressed.iter().map(|contact| contact.initial_gap.abs());
     let moved = moved.fold(0.0, f64::max);
     (off > OF_OVERLAP * moved && moved > 0.0).then(|| {
         format!(
             "straight facets stand off the curved surfaces that they mesh by {} in the mean, where these \
-             overlap or approach each other by {}: pressures are wrong by as large a part; refine, or \
-             take quadratic cells",
+             overlap or approach each other by {}: pressures are wrong by as large a part; leave out \
+             `rounded: false`, refine, or take quadratic cells",
             significant(off),
             significant(moved)
         )
