@@ -33,6 +33,14 @@ impl Factored {
         self.lu.solve(right)
     }
 
+    /// Sign of the determinant.
+    pub(super) fn sign(&self) -> f64 {
+        let pivots = self.lu.U().diagonal().column_vector();
+        let odd = is_odd(self.lu.P().arrays().0);
+        let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
+        pivots.iter().map(|pivot| pivot.signum()).product::<f64>() * sign(odd)
+    }
+
     /// Products of two numbers that it took.
     pub(super) fn products(&self) -> f64 {
         (self.lu.L().nrows() as f64).powi(3) / 3.0
@@ -57,6 +65,20 @@ impl Factored {
             false => self.size * value,
         }
     }
+}
+
+/// Whether a permutation takes an odd number of exchanges.
+fn is_odd(permutation: &[usize]) -> bool {
+    let (mut seen, mut cycles) = (vec![false; permutation.len()], 0);
+    for start in 0..permutation.len() {
+        cycles += usize::from(!seen[start]);
+        let mut at = start;
+        while !seen[at] {
+            seen[at] = true;
+            at = permutation[at];
+        }
+    }
+    (permutation.len() - cycles) % 2 == 1
 }
 
 /// `A x`, on one thread: several would add up in their own order.
@@ -84,6 +106,19 @@ mod tests {
         let found = Factored::new(&mat![[1.0, 0.99], [0.99, 1.0]]).condition();
         // Power iterations that stop early; half a percent of an order of magnitude.
         assert!((found - 199.0).abs() < 1.0, "{found}");
+    }
+
+    #[test]
+    fn the_sign_is_that_of_the_determinant() {
+        // A shift of three rows is even, an exchange of two is odd; and two pivots of four are negative.
+        let of = |matrix: Mat<f64>| Factored::new(&matrix).sign();
+        assert_eq!(
+            of(mat![[0.0, 2.0, 0.0], [0.0, 0.0, 3.0], [4.0, 0.0, 0.0]]),
+            1.0
+        );
+        assert_eq!(of(mat![[0.0, 2.0], [3.0, 1.0]]), -1.0);
+        assert_eq!(of(mat![[-1.0, 0.0], [0.0, 2.0]]), -1.0);
+        assert_eq!(of(mat![[-1.0, 0.0], [0.0, -2.0]]), 1.0);
     }
 
     #[test]

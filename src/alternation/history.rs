@@ -155,6 +155,8 @@ pub struct Work {
     pub proximal_steps: usize,
     /// Contacts that changed what they do, one after the other, on a path from afar (D10).
     pub path_changes: usize,
+    /// Steps on a path of contacts that are joined (D13).
+    pub path_steps: usize,
     /// Seconds of prediction, half-steps, finish, judge.
     pub seconds: Seconds,
 }

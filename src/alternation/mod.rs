@@ -5,7 +5,8 @@
 //! sweep      t_N ← (H1) with t_T held;  accelerate t_N;  t_T ← (H2) with t_N held
 //! finish     Newton steps on the laws (D4), kept only if the judge's residual falls
 //! proximal   where a finish fails: a proximal point loop around Newton steps (D6)
-//! approach   where that fails too, in the plane: the surfaces brought together from afar (D10)
+//! path       where that fails too, between bodies that are held: surfaces brought together from afar (D10),
+//!            or contacts joined one with the other (D13)
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!
@@ -168,7 +169,7 @@ fn run(mut run: Run<'_>) -> Outcome {
         run.newton_finish();
         run.doubt_equilibrium();
         run.proximal_steps();
-        run.approach_from_afar();
+        run.follow_a_path();
         run.end_sweep();
     }
     run.into_outcome()

@@ -97,6 +97,14 @@ impl Clock {
         }
     }
 
+    /// Of what has no settings of its own.
+    pub(super) const fn endless() -> Self {
+        Self {
+            end: None,
+            interrupt: None,
+        }
+    }
+
     /// Why the solve ends here, if it does.
     pub(super) fn over(self) -> Option<Shortfall> {
         if self.interrupt.is_some_and(Interrupt::is_raised) {

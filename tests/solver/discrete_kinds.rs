@@ -181,22 +181,17 @@ pub(crate) fn coupled(random: &mut Random) -> ContactProblem {
     .unwrap()
 }
 
-fn lost(problems: usize) -> usize {
+/// Sweeps and proximal steps lose one in a hundred (the 37th goes round in circles beside a state that is none, from
+/// every start); a path of contacts that are joined leads to all of them where this was written.
+#[test]
+fn strong_coupling_in_space_is_certified_but_for_two_in_fifteen_hundred() {
     let mut random = Random(0x9e37_79b9_7f4a_7c15);
-    let outcomes = (0..problems).map(|_| solve(&coupled(&mut random), &Settings::default()));
-    outcomes
-        .filter(|outcome| outcome.as_ref().unwrap().status != Status::Certified)
-        .count()
-}
-
-/// The 37th is lost from every start that is tried.
-#[test]
-fn strong_coupling_in_space_is_certified_but_for_one_in_two_hundred() {
-    assert!(lost(200) <= 1);
-}
-
-#[test]
-#[ignore = "fifteen hundred problems take minutes"]
-fn fifteen_hundred_strongly_coupled_problems_are_certified_but_two() {
-    assert!(lost(1500) <= 2);
+    let outcomes = (0..1500).map(|number| {
+        let outcome = solve(&coupled(&mut random), &Settings::default()).unwrap();
+        (number, outcome)
+    });
+    let lost = outcomes.filter(|(_, outcome)| outcome.status != Status::Certified);
+    let lost = lost.map(|(number, outcome)| (number, outcome.verdict.certificate.residual()));
+    let lost: Vec<(usize, f64)> = lost.collect();
+    assert!(lost.len() <= 2, "{lost:?}");
 }

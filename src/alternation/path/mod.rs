@@ -3,10 +3,13 @@
 //!
 //! | path | file |
 //! |---|---|
-//! | in the plane, surfaces that approach from afar, exactly (D10) | `approach`: `plane`, `plane_piece` |
+//! | in the plane, surfaces that approach from afar, exactly (D10) | `plane`, `plane_piece` |
+//! | in space, contacts that are joined (D13) | `joined` |
+//! | either of them, where all else fails | `last_resort` |
 //! | a load step, followed back to its start (D11) | `continuity` |
 
-mod approach;
 pub(super) mod continuity;
+mod joined;
+mod last_resort;
 mod plane;
 mod plane_piece;

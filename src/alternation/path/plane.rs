@@ -17,11 +17,16 @@
 //! together. It cannot come back to where it started, as `t = 0` is the only state there, nor
 //! run off, as a positive definite G bounds all states: it ends at λ = 0, in a state of the problem, however
 //! much friction there is.
+//!
+//! That end may be far: pieces can be as many as the sets of contacts. A path is left, as lost, after a thousand
+//! changes per contact, or after the products of two numbers that a minute has time for (a change takes a third of
+//! the cube of the pressed unknowns, and twice the square of all), or when the time of the solve is over.
 
 use faer::Col;
 
 use super::plane_piece::{Condition, Does, Line, Piece, is_rough};
 use crate::alternation::Outcome;
+use crate::alternation::settings::Clock;
 use crate::kkt::ContactStatus;
 use crate::problem::ContactProblem;
 
@@ -55,6 +60,14 @@ pub(super) struct PlanePath<'a> {
     /// Contacts that changed so far, one after the other.
     pub(super) changes: usize,
     products: f64,
+    bound: Bound,
+}
+
+/// What a path may take.
+struct Bound {
+    changes: usize,
+    products: f64,
+    clock: Clock,
 }
 
 impl<'a> PlanePath<'a> {
@@ -115,7 +128,18 @@ impl<'a> PlanePath<'a> {
             way: -1.0,
             changes: 0,
             products: 0.0,
+            bound: Bound {
+                changes: CHANGES * problem.contacts(),
+                products: PRODUCTS,
+                clock: Clock::endless(),
+            },
         })
+    }
+
+    /// The same, left when the time of a solve is over.
+    pub(super) fn until(mut self, clock: Clock) -> Self {
+        self.bound.clock = clock;
+        self
     }
 
     /// Follows the path down to a λ, round its turns if it may turn.
@@ -158,13 +182,21 @@ impl<'a> PlanePath<'a> {
         first
     }
 
+    fn is_too_far(&self) -> bool {
+        let Bound {
+            changes,
+            products,
+            clock,
+        } = self.bound;
+        self.changes > changes || self.products > products || clock.over().is_some()
+    }
+
     /// The piece beyond a condition, and the sign of the change of λ that leads into it; none if there
     /// is none, or if it would be one too many.
     fn cross(&mut self, broken: Condition) -> Option<(Line, f64)> {
         self.changes += 1;
         self.products += self.piece.products();
-        let contacts = self.piece.problem.contacts();
-        if self.changes > CHANGES * contacts || self.products > PRODUCTS {
+        if self.is_too_far() {
             return None;
         }
         let before = std::mem::replace(&mut self.piece.does[broken.contact], broken.beyond);
@@ -181,6 +213,8 @@ impl<'a> PlanePath<'a> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use std::time::Duration;
+
     use faer::{Mat, mat};
 
     use super::*;
@@ -222,6 +256,32 @@ mod tests {
         let mut path = PlanePath::of_approach(&problem).unwrap();
         assert_reaches(&mut path, [-0.7, -0.6]);
         assert_eq!(path.changes, 2);
+    }
+
+    #[test]
+    fn a_path_that_takes_more_than_it_may_is_left() {
+        // The same path: it closes at λ = 0.1, sticks at 0.225, and is there.
+        let problem = contact(1.5, [0.1, 0.5]);
+        let path = || PlanePath::of_approach(&problem).unwrap();
+        let left = |mut path: PlanePath<'_>, at: f64, changes: usize| {
+            let End::Lost(parameter) = path.follow(0.0, true) else {
+                unreachable!()
+            };
+            assert!((parameter - at).abs() < 1e-11, "{parameter}");
+            assert_eq!(path.changes, changes);
+        };
+        let mut short = path();
+        short.bound.changes = 1;
+        left(short, 0.225, 2);
+        // A piece with one column of two unknowns: 1/3 + 2 · 4 products; the next one takes more.
+        let mut slow = path();
+        slow.bound.products = 10.0;
+        left(slow, 0.225, 2);
+        let over = Settings {
+            time_limit: Some(Duration::ZERO),
+            ..Settings::default()
+        };
+        left(path().until(Clock::start(&over)), 0.1, 1);
     }
 
     #[test]
