@@ -34,6 +34,9 @@ const STEPS: (usize, usize) = (12, 5);
 /// The residual of a subproblem that counts as solved, as a part of that where it began.
 const SETTLED: f64 = 0.1;
 
+/// Residuals that differ by less than this part are one.
+const AGAIN: f64 = 1e-9;
+
 /// Newton steps in all at most, and products of two numbers that they take: those of a minute or two.
 const STEPS_IN_ALL: usize = 600;
 const PRODUCTS: f64 = 1e12;
@@ -119,16 +122,24 @@ fn settle(finish: &mut Finish<'_>, anchor: &Iterate, softness: f64) -> (Option<P
         anchor: &anchor.reaction,
     };
     let mut point = finish.point(anchor);
-    let wanted = SETTLED * finish.residual(&point, springs);
+    let mut residuals = vec![finish.residual(&point, springs)];
+    let wanted = SETTLED * residuals[0];
     for steps in 1..=STEPS.0 {
         let seen = point.beyond.clone();
         let Some(next) = finish.step(&point, &seen, springs) else {
             return (None, steps);
         };
         point = next;
-        if finish.residual(&point, springs) <= wanted {
+        let residual = finish.residual(&point, springs);
+        if residual <= wanted {
             return (Some(point), steps);
         }
+        // What comes back goes round in circles.
+        let again = |earlier: &f64| (earlier - residual).abs() <= AGAIN * residual;
+        if residuals.iter().any(again) {
+            return (None, steps);
+        }
+        residuals.push(residual);
     }
     (None, STEPS.0)
 }
