@@ -1,7 +1,7 @@
 //! Rigid motions that no contact feels are left out of a solve.
 //!
 //! ```text
-//! (D12)  α = V α′,   R V = U Σ,   Vᵀ V = 1        without the directions in which Σ is round-off
+//! (D14)  α = V α′,   R V = U Σ,   Vᵀ V = 1        without the directions in which Σ is round-off
 //! ```
 //!
 //! A body between smooth parallel planes slides without any contact noticing. Along such a direction nothing

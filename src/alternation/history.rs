@@ -177,6 +177,7 @@ impl Work {
             newton_steps: self.newton_steps + more.newton_steps,
             proximal_steps: self.proximal_steps + more.proximal_steps,
             path_changes: self.path_changes + more.path_changes,
+            path_steps: self.path_steps + more.path_steps,
             seconds: Seconds {
                 predict: self.seconds.predict + more.seconds.predict,
                 coulomb: self.seconds.coulomb + more.seconds.coulomb,

@@ -1,7 +1,7 @@
 //! Bodies that their factor shows with few digits, set right by what they leave of their own equations.
 //!
 //! ```text
-//! (C23)  r = f + Bᵀ t − K u,   u ← u + K⁻¹ r        r as if in twice the precision
+//! (C24)  r = f + Bᵀ t − K u,   u ← u + K⁻¹ r        r as if in twice the precision
 //!        û ← û + (B u − (û + G t))                  the contact problem follows the bodies
 //! ```
 //!
@@ -42,14 +42,14 @@ impl Condensed {
         Ok(ahead)
     }
 
-    /// Whether (C23) is for these bodies: held by their supports, and with every contact unknown in the factor.
+    /// Whether (C24) is for these bodies: held by their supports, and with every contact unknown in the factor.
     #[must_use]
     pub fn corrects(&self) -> bool {
         let mut bodies = self.bodies.iter().map(|body| &body.factored);
         bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
     }
 
-    /// The first of (C23): displacements under a reaction in newton, in place, in metre.
+    /// The first of (C24): displacements under a reaction in newton, in place, in metre.
     ///
     /// # Errors
     ///
@@ -65,7 +65,7 @@ impl Condensed {
         Ok(())
     }
 
-    /// The second of (C23): the contact problem with û moved, in metre per unknown.
+    /// The second of (C24): the contact problem with û moved, in metre per unknown.
     ///
     /// # Errors
     ///
@@ -105,7 +105,7 @@ impl FactoredBody {
         }
     }
 
-    /// r of (C23), in newton, in the factor's order.
+    /// r of (C24), in newton, in the factor's order.
     fn residual(&self, action: &Action, forces: &[f64], displacement: &[f64]) -> Vec<f64> {
         let rows = self.stiffness.outer_iterator().zip(&action.load);
         let mut rest: Vec<f64> = rows

@@ -150,7 +150,7 @@ fn contacts(
             None => Stance::Held,
         });
     }
-    coupled.lift(&body.mesh);
+    coupled.lift();
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
     for (node, stance) in coupled.nodes.into_iter().zip(stances) {
         let Stance::Free { frame, kept } = stance else {

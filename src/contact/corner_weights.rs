@@ -21,9 +21,9 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{DMatrix, DVector, Vector3};
+use nalgebra::{DMatrix, DVector};
 
-use super::lift::lifts;
+use super::lift::{Distances, lifts};
 use super::rounding::Bulges;
 use crate::body::{Body, Facet, FacetGeometry, FacetPoint};
 use crate::error::Error;
@@ -49,6 +49,8 @@ pub(super) struct Footing {
     pub(super) bulge: f64,
     /// Least g₀ on the facets around, in metre.
     least: f64,
+    /// Gap at the corner itself, where facets are quadratic, in metre.
+    here: f64,
 }
 
 /// The footings on facets with an area, in the order in which these name their corners; `gap` is g₀ in
@@ -88,18 +90,18 @@ pub(super) fn footings(
                 }
             }
         }
-        let places = corners.iter().map(|corner| gathered.place_of_node[corner]);
-        let patch = places.collect();
-        gathered.patches.push(patch);
         for &corner in corners {
             for &other in corners {
                 let there = gap(corner, body.mesh.nodes[other])?;
                 let footing = gathered.at(corner);
                 footing.least = footing.least.min(there);
+                if other == corner {
+                    footing.here = there;
+                }
             }
         }
     }
-    Ok(gathered.close(body))
+    Ok(gathered.close())
 }
 
 /// `D M⁻¹` of a facet (C16); one where it has no area, as on an axis.
@@ -123,25 +125,25 @@ fn duals(points: &[FacetPoint], corners: usize) -> DMatrix<f64> {
 struct Gathered {
     footings: Vec<Footing>,
     place_of_node: HashMap<usize, usize>,
-    /// Footings that share a quadratic facet.
-    patches: Vec<Vec<usize>>,
 }
 
 impl Gathered {
     /// The footings with an area, their gaps bounded from below; on linear facets gaps are no means.
-    fn close(self, body: &Body) -> Vec<Footing> {
+    fn close(self) -> Vec<Footing> {
         let mut closed: Vec<Footing> = self.footings.into_iter().map(Footing::close).collect();
-        let own = closed
+        let distances = closed
             .iter()
             .map(|footing| match footing.least.is_finite() {
-                true => (footing.least - footing.gap).max(0.0),
-                false => 0.0,
+                true => Distances {
+                    mean: footing.gap,
+                    least: footing.least,
+                    here: footing.here,
+                },
+                false => Distances::plain(footing.gap),
             });
-        let at = closed
-            .iter()
-            .map(|footing| Vector3::from(body.mesh.nodes[footing.node]));
-        let lifts = lifts(own.collect(), &at.collect::<Vec<_>>(), &self.patches);
-        for (footing, lift) in closed.iter_mut().zip(lifts) {
+        let distances: Vec<Distances> = distances.collect();
+        let size = closed.iter().map(|footing| footing.area).sum();
+        for (footing, lift) in closed.iter_mut().zip(lifts(&distances, size)) {
             footing.gap += lift;
         }
         closed.retain(|footing| footing.area > 0.0);
@@ -158,6 +160,7 @@ impl Gathered {
                 gap: 0.0,
                 bulge: 0.0,
                 least: f64::INFINITY,
+                here: f64::INFINITY,
             });
         }
         &mut self.footings[place]

@@ -1,4 +1,4 @@
-//! Contacts solved again where the bodies move otherwise than their condensed problem says (C23).
+//! Contacts solved again where the bodies move otherwise than their condensed problem says (C24).
 
 use super::Setup;
 use crate::alternation;

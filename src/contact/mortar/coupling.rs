@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
-use super::super::lift::lifts;
+use super::super::lift::{Distances, lifts};
 use super::alignment::{align, follow, is_across};
 use super::check::Surface;
 #[cfg(test)]
@@ -12,7 +12,7 @@ use super::check::check_dimensions;
 use super::coverage::Coverage;
 use super::join::join;
 use super::patch::{Patch, Stand};
-use super::projection::Projection;
+use super::projection::{Projection, nearer};
 use super::tiling;
 use super::trim::{Strip, strips};
 use super::{Mortar, MortarNode};
@@ -60,7 +60,7 @@ pub(in crate::contact) fn couple(
     for node in &mut mortar.nodes {
         node.look_along(node.normal, [false; 3], mesh1, mesh2);
     }
-    mortar.lift(mesh1);
+    mortar.lift();
     Ok(mortar)
 }
 
@@ -82,9 +82,7 @@ pub(in crate::contact) fn average(
     let support = support(one, model);
     let same_mesh = std::ptr::eq(one.mesh, two.mesh);
     let mut mortar = Mortar::default();
-    let mut number = HashMap::new();
     for share in gathered.shares {
-        let stand = share.stand;
         let support = support.get(&share.stand.node).copied().unwrap_or_default();
         let node = share.contact(support, place)?.map(|node| MortarNode {
             taken: one.bulges.taken(node.bulge),
@@ -96,17 +94,9 @@ pub(in crate::contact) fn average(
             same_mesh && others.all(|(_, weight)| weight.abs() < NEGLIGIBLE.sqrt())
         };
         if let Some(node) = node.filter(|node| !itself(node)) {
-            number.insert(stand, mortar.nodes.len());
             mortar.nodes.push(node);
         }
     }
-    let numbers = |patch: &Patch| {
-        let stands = patch.stands.iter();
-        stands
-            .filter_map(|stand| number.get(stand).copied())
-            .collect()
-    };
-    mortar.patches = patches.iter().map(numbers).collect();
     if mortar.nodes.is_empty() {
         return Err(Error::NothingFacesOpposite {
             place: place.to_owned(),
@@ -171,6 +161,8 @@ struct Share {
     /// `∫ ψ_i γ dA`, in m³ (2D: m²), and the least γ in metre (C20).
     distance: f64,
     least: f64,
+    /// Largest value of its function at the ends of parts, and γ there, in metre.
+    here: [f64; 2],
 }
 
 impl Gathered {
@@ -186,6 +178,7 @@ impl Gathered {
                 bulge: 0.0,
                 distance: 0.0,
                 least: f64::INFINITY,
+                here: [0.0; 2],
             });
         }
         &mut self.shares[place]
@@ -200,6 +193,7 @@ impl Gathered {
             share.bulge += projection.bulges[local];
             share.distance += projection.distances[local];
             share.least = share.least.min(projection.least);
+            nearer(&mut share.here, projection.here[local]);
             let entry = |(node, column): &(usize, [f64; 4])| (*node, column[local]);
             let own = projection.own.iter().map(entry);
             share.own.extend(own.filter(|(_, weight)| *weight != 0.0));
@@ -210,10 +204,10 @@ impl Gathered {
 
 impl Mortar {
     /// Bounds the gaps of all contacts from below (C20).
-    pub(in crate::contact) fn lift(&mut self, mesh1: &Mesh) {
-        let own = self.nodes.iter().map(|node| node.lacking).collect();
-        let at: Vec<_> = self.nodes.iter().map(|node| node.centre(mesh1)).collect();
-        let lifts = lifts(own, &at, &self.patches);
+    pub(in crate::contact) fn lift(&mut self) {
+        let distances: Vec<Distances> = self.nodes.iter().map(|node| node.distances).collect();
+        let size = self.nodes.iter().map(|node| node.weight).sum();
+        let lifts = lifts(&distances, size);
         for (node, lift) in self.nodes.iter_mut().zip(lifts) {
             node.initial_gap += lift;
         }
@@ -282,6 +276,17 @@ impl MortarNode {
 
 impl Share {
     /// The contact (C9) at a node of so large a tributary area; none if nothing covers it.
+    /// γ in the mean, the least one, and where the contact stands.
+    fn distances(&self) -> Distances {
+        let mean = self.distance / self.weight;
+        let [function, here] = self.here;
+        Distances {
+            mean,
+            least: self.least,
+            here: if function > 0.0 { here } else { mean },
+        }
+    }
+
     fn contact(self, support: f64, place: &str) -> Result<Option<MortarNode>, Error> {
         if self.weight <= VANISHING * support {
             return Ok(None);
@@ -294,6 +299,7 @@ impl Share {
                 accepted: "facets around a node that do not look opposite ways",
             });
         };
+        let distances = self.distances();
         let mut own = means(self.own, &place)?;
         clear(&mut own);
         let node = MortarNode {
@@ -305,7 +311,7 @@ impl Share {
             opposite: means(self.opposite, &place)?,
             bulge: self.bulge / self.weight,
             taken: 0.0,
-            lacking: (self.least - self.distance / self.weight).max(0.0),
+            distances,
             gap_vector: [0.0; 3],
             initial_gap: 0.0,
             covered: (self.weight / support).min(1.0),

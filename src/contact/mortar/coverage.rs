@@ -7,13 +7,14 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::check::{Surface, check_dimensions};
-use super::cover::{Opposite, Part, Span};
+use super::cover::{Opposite, Span};
 use super::flush::reach_flush_ends;
 use super::overlap::Overlaps;
 use super::pieces::Piece;
 use super::polygon;
 use super::search::Bounds;
-use super::view::{Outline, View};
+use super::seen::Seen;
+use super::view::View;
 use crate::error::Error;
 
 /// Interference that is believed, of the diagonal of the smaller side: more is no fit, and beyond
@@ -61,21 +62,6 @@ pub(in crate::contact) struct Coverage<'a> {
     seen: Vec<Seen>,
     /// Facets of side 2 that lie over side 1 but look the same way.
     pub(super) averted: usize,
-}
-
-/// A piece of side 1 and what covers it.
-pub(super) struct Seen {
-    pub(super) view: View,
-    pub(super) outline: Outline,
-    pub(super) parts: Vec<Part>,
-}
-
-impl Seen {
-    /// Distances to what covers the parts, in metre.
-    fn distances(&self) -> impl Iterator<Item = f64> {
-        let parts = self.parts.iter();
-        parts.map(|part| part.distance * self.view.size)
-    }
 }
 
 impl<'a> Coverage<'a> {

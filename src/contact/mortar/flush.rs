@@ -9,7 +9,7 @@
 use nalgebra::Vector3;
 
 use super::check::Surface;
-use super::coverage::Seen;
+use super::seen::Seen;
 
 /// Distance from a flank, as part of a facet, that is none: coordinates may come with five digits.
 const ON_FLANK: f64 = 1e-4;

@@ -35,7 +35,7 @@
 //! | what lies over a facet, at any distance | `coverage`, `search` |
 //! | a facet's plane, the others seen in it | `view` |
 //! | polygons: intersection, difference, area | `polygon` |
-//! | the parts of a facet and what covers them | `cover`, `flush` |
+//! | the parts of a facet and what covers them | `cover`, `seen`, `flush` |
 //! | bodies that are in each other | `overlap` |
 //! | Gauss points over a polygon | `quadrature` |
 //! | functions on facets that are covered in part (C19) | `patch`; in 2D `trim`, `join` |
@@ -62,6 +62,7 @@ mod polygon;
 mod projection;
 mod quadrature;
 mod search;
+mod seen;
 mod spread;
 mod standing;
 #[cfg(test)]
@@ -78,13 +79,13 @@ pub(in crate::contact) use coupling::average;
 pub(in crate::contact) use coupling::couple;
 pub(in crate::contact) use coverage::{Coverage, Ends};
 
+use super::lift::Distances;
+
 /// The contacts of side 1, each with the nodes of side 2 that it meets.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Mortar {
     /// Contacts in the order in which the facets of side 1 name them.
     pub nodes: Vec<MortarNode>,
-    /// Contacts that share a facet, by their places among `nodes`.
-    patches: Vec<Vec<usize>>,
 }
 
 /// A contact of side 1 and its share of side 2.
@@ -108,8 +109,8 @@ pub(crate) struct MortarNode {
     pub bulge: f64,
     /// The bulge, or zero if nothing is rounded, in metre.
     pub taken: f64,
-    /// What the mean distance under the dual function lacks to the least one on its facets, in metre (C20).
-    pub lacking: f64,
+    /// Distances of the sides under its dual function and on its facets (C20).
+    distances: Distances,
     /// `Σ_k P_ik x²_k − x_i`, in metre, where `x_i` is the mean of its own nodes.
     pub gap_vector: [f64; 3],
     /// The gap (C20) in metre; negative where the sides overlap.

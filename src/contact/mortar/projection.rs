@@ -21,11 +21,13 @@ use std::borrow::Cow;
 use nalgebra::Vector3;
 
 use super::cover::Part;
-use super::coverage::{Coverage, Seen};
+use super::coverage::Coverage;
 use super::patch::{MOST_CONTACTS, Member, Patch};
 use super::pieces::Piece;
 use super::polygon::{Point, centroid};
 use super::quadrature::{LINEAR, integrate, points_for};
+use super::seen::Seen;
+use super::ties::EQUAL;
 use super::view::Outline;
 use crate::body::{Facet, MOST_FACET_NODES, Mesh, Model, around};
 
@@ -52,6 +54,8 @@ pub(super) struct Projection {
     pub(super) distances: PerContact,
     /// Least γ in metre: of all points where it is integrated and of the ends of parts.
     pub(super) least: f64,
+    /// Largest value of each contact's function at the ends of parts, and γ there, in metre.
+    pub(super) here: [[f64; 2]; MOST_CONTACTS],
 }
 
 impl Default for Projection {
@@ -64,6 +68,7 @@ impl Default for Projection {
             bulges: [0.0; MOST_CONTACTS],
             distances: [0.0; MOST_CONTACTS],
             least: f64::INFINITY,
+            here: [[0.0; 2]; MOST_CONTACTS],
         }
     }
 }
@@ -166,6 +171,13 @@ impl Place<'_> {
     }
 }
 
+/// Of a contact's function and γ at two points, those where the function is larger; of equals the least γ.
+pub(super) fn nearer(known: &mut [f64; 2], other: [f64; 2]) {
+    if other[0] > known[0] + EQUAL || (other[0] >= known[0] - EQUAL && other[1] < known[1]) {
+        *known = other;
+    }
+}
+
 /// Integrals over a patch, before `M` is divided out of them.
 #[derive(Default)]
 struct Integrals {
@@ -204,8 +216,15 @@ impl Integrals {
                 }
             }
         });
-        let corners = part.polygon.iter().map(|at| place.at(*at).distance);
-        self.sums.least = corners.fold(least, f64::min);
+        self.sums.least = least;
+        for at in &part.polygon {
+            let met = place.at(*at);
+            self.sums.least = self.sums.least.min(met.distance);
+            let functions = member.functions(&met.hats).into_iter();
+            for (nearest, value) in self.sums.here.iter_mut().zip(functions) {
+                nearer(nearest, [value, met.distance]);
+            }
+        }
         let nodes = |piece: &Piece<'_>| piece.facet.nodes.clone().into_iter();
         self.sums.own.extend(nodes(place.piece).zip(own));
         self.sums.columns.extend(nodes(place.across()).zip(across));
@@ -273,6 +292,9 @@ impl Projection {
         self.own.extend(other.own);
         self.columns.extend(other.columns);
         self.least = self.least.min(other.least);
+        for (here, other) in self.here.iter_mut().zip(other.here) {
+            nearer(here, other);
+        }
     }
 
     /// Replaces the columns of `B` by those of `D P = D M⁻¹ B`.

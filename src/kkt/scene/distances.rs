@@ -7,7 +7,7 @@
 //! ```
 //!
 //! Laws hold for means over facets. What a point may depart from them is what the facets around it depart
-//! from each other: their sagittas, and for what touches the change of the relative displacement over them.
+//! from each other: their sagittas, what the distance is off linear over a facet, and for what touches the change of the relative displacement over them.
 
 use nalgebra::Vector3;
 
@@ -63,6 +63,8 @@ pub(super) struct Nearby {
     approach: Range,
     /// Largest sagitta of both sides, in metre.
     sagitta: f64,
+    /// How far the distance before loading is from linear over a face, in metre.
+    curved: f64,
 }
 
 impl Nearby {
@@ -70,6 +72,7 @@ impl Nearby {
         gap: Range::NONE,
         approach: Range::NONE,
         sagitta: 0.0,
+        curved: 0.0,
     };
 
     fn with(self, other: Self) -> Self {
@@ -77,6 +80,7 @@ impl Nearby {
             gap: self.gap.with(other.gap),
             approach: self.approach.with(other.approach),
             sagitta: self.sagitta.max(other.sagitta),
+            curved: self.curved.max(other.curved),
         }
     }
 
@@ -84,14 +88,15 @@ impl Nearby {
     pub(super) fn overlap(&self, rounded: f64, contact: usize) -> Measure {
         let depth = (-self.gap.low).max(0.0);
         let varied = (self.gap.high - self.gap.low).max(0.0);
-        let explained = self.sagitta + (1.0 + OVERSHOOT) * varied + rounded;
+        let resolved = self.sagitta + self.curved;
+        let explained = resolved + (1.0 + OVERSHOOT) * varied + rounded;
         Measure::new(depth, explained, contact)
     }
 
     /// How far from the other side something presses.
     pub(super) fn distance(&self, rounded: f64, contact: usize) -> Measure {
         let varied = (self.approach.high - self.approach.low).max(0.0);
-        let explained = self.sagitta + OVERSHOOT * varied + rounded;
+        let explained = self.sagitta + self.curved + OVERSHOOT * varied + rounded;
         Measure::new(self.gap.low.max(0.0), explained, contact)
     }
 
@@ -122,12 +127,16 @@ impl Distances {
                 gap: Range::of(sample.distance + opening + approach),
                 approach: Range::of(approach),
                 sagitta: meeting.sagitta(sample),
+                curved: 0.0,
             }
         });
         let samples: Vec<Nearby> = samples.collect();
         let on = |face| {
             let on_face = meeting.on(side, face).map(|number| samples[number]);
-            on_face.fold(Nearby::NONE, Nearby::with)
+            Nearby {
+                curved: meeting.curved(side, face),
+                ..on_face.fold(Nearby::NONE, Nearby::with)
+            }
         };
         Self((0..faces).map(on).collect())
     }

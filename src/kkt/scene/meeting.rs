@@ -89,6 +89,30 @@ impl Meeting {
         self.of_face[side][face].iter().copied()
     }
 
+    /// How far the distance at the middle of a face is from the mean of those at its corners, in metre: what a facet
+    /// does not follow of the other side. Zero unless all of these see the other side.
+    pub(super) fn curved(&self, side: usize, number: usize) -> f64 {
+        let Some(face) = self.skins.get(side).and_then(|skin| skin.faces.get(number)) else {
+            return 0.0;
+        };
+        let near = ROUNDED * face.size;
+        let at = |x: Vector3<f64>| {
+            let samples = self.on(side, number).map(|k| &self.samples[k]);
+            let mut there = samples.filter(|sample| {
+                let place = sample.places[side].as_ref();
+                place.is_some_and(|place| (place.position - x).norm() <= near)
+            });
+            there.next().map(|sample| sample.distance)
+        };
+        let corners: Option<Vec<f64>> = face.corners().map(at).collect();
+        match (corners, at(face.middle())) {
+            (Some(corners), Some(middle)) => {
+                (corners.iter().sum::<f64>() / corners.len() as f64 - middle).abs()
+            }
+            _ => 0.0,
+        }
+    }
+
     /// The sagittas of the faces that a sample is on, in metre.
     pub(super) fn sagitta(&self, sample: &Sample) -> f64 {
         let places = sample.places.iter().zip(&self.skins);

@@ -54,6 +54,19 @@ pub(super) struct Face {
     pub(super) rim: Vec<bool>,
 }
 
+impl Face {
+    /// Positions of the corners, in metre.
+    pub(super) fn corners(&self) -> impl Iterator<Item = Vector3<f64>> + '_ {
+        let corners = self.reference.hats(self.reference.centre()).len();
+        self.x[..corners].iter().copied()
+    }
+
+    /// Position of the middle, in metre.
+    pub(super) fn middle(&self) -> Vector3<f64> {
+        self.position(self.reference.centre())
+    }
+}
+
 /// A straight part of a facet.
 #[derive(Clone, Debug)]
 struct Tile {
