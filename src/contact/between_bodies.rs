@@ -57,11 +57,14 @@ pub(super) fn between_surfaces(
     let first = side(pair.body, &pair.facets, &format!("{}.facets", pair.place))?;
     let second = side(opposite, facets, &place)?;
     refuse_common_facets(&first, &second, &place)?;
-    let surfaces = [
-        surface(scene, pair, &first, &format!("{}.facets", pair.place))?,
-        surface(scene, pair, &second, &place)?,
-    ];
     let young = [&first, &second].map(|side| softest(&scene.bodies[side.body], &side.facets));
+    let of = |side, place: &str, young: f64| -> Result<Surface<'_>, Error> {
+        Ok(surface(scene, pair, side, place)?.giving_way(young.recip()))
+    };
+    let surfaces = [
+        of(&first, &format!("{}.facets", pair.place), young[0])?,
+        of(&second, &place, young[1])?,
+    ];
     let [one, two] = &surfaces;
     match carrying([one, two], young, &pair.place)? {
         (coverage, false) => contacts(scene, pair, &coverage, [&first, &second], false),

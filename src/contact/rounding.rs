@@ -14,6 +14,15 @@
 //!        b = (4 s_ab (1−v) + 4 s_cd v) u(1−u) + (4 s_da (1−u) + 4 s_bc u) v(1−v)
 //! ```
 //!
+//! Pressed together, two lines have one curvature: each has lost its share of `κ_1 + κ_2`, as it gives way.
+//! Linear displacements move the nodes there and leave the facets straight, so that what counts in a mean gap is
+//! the sagitta of the curvature that is left (C23). Between two circles that fit it is all, between two
+//! alike ones that flatten each other nothing. Distances before anything is pressed have all of it.
+//!
+//! ```text
+//! (C23)  b' = b_1 + b_2 − Σ_k c_k max(0, κ_1 + κ_2) L_k² ξ_k (1 − ξ_k)/2      c_k: share of the compliance, Σ c_k = 1
+//! ```
+//!
 //! A mesh of straight facets is a polygon in or around the body that it was made for. Two of them that
 //! should fit depart from each other by up to the sum of their sagittas, which may be more than
 //! what they overlap or approach. Gaps are therefore measured between the smooth surfaces: what facets
@@ -100,6 +109,11 @@ impl Bulges {
     /// Whether the smooth surface stands off a facet.
     pub(super) fn is_round(&self, facet: usize) -> bool {
         self.of[facet].edges.iter().any(|round| *round != 0.0)
+    }
+
+    /// κ in 1/m of the arc that a line of a length in metre stands for (C18).
+    pub(super) fn curvature(&self, facet: usize, length: f64) -> f64 {
+        2.0 * self.of[facet].edges[0] / (length * length)
     }
 
     /// Number of those of some facets that are rounded, and the largest `|b|` in metre.

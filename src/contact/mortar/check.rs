@@ -27,6 +27,8 @@ pub(in crate::contact) struct Surface<'a> {
     pub(super) geometries: Vec<FacetGeometry>,
     /// How far the smooth surface stands off the facets.
     pub(super) bulges: Bulges,
+    /// How much the body gives way beside the other one.
+    pub(super) compliance: f64,
     /// In 2D, the directions in which the body's boundary goes on where this side ends, by its last nodes.
     pub(super) flanks: HashMap<usize, Vector3<f64>>,
 }
@@ -57,6 +59,7 @@ impl<'a> Surface<'a> {
             geometries: Vec::with_capacity(facets.len()),
             bulges: Bulges::none(facets.len()),
             flanks: HashMap::new(),
+            compliance: 1.0,
         };
         for (index, facet) in facets.iter().enumerate() {
             let place = format!("{place}[{index}]");
@@ -85,6 +88,11 @@ impl<'a> Surface<'a> {
             flanks,
             ..self
         }
+    }
+
+    /// The same of a body that gives way by so much beside the other one.
+    pub(in crate::contact) fn giving_way(self, compliance: f64) -> Self {
+        Self { compliance, ..self }
     }
 
     /// Whether a facet's nodes are its corners.

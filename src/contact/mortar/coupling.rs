@@ -85,7 +85,7 @@ pub(in crate::contact) fn average(
     for share in gathered.shares {
         let support = support.get(&share.stand.node).copied().unwrap_or_default();
         let node = share.contact(support, place)?.map(|node| MortarNode {
-            taken: one.bulges.taken(node.bulge),
+            taken: one.bulges.taken(node.taken),
             ..node
         });
         // A node that both faces share, as at the tip of a crack, has nothing to touch.
@@ -158,6 +158,8 @@ struct Share {
     opposite: Vec<(usize, f64)>,
     /// `∫ ψ_i b dA`, in m³ (2D: m²).
     bulge: f64,
+    /// `∫ ψ_i b' dA` (C23), in m³ (2D: m²).
+    pressed: f64,
     /// `∫ ψ_i γ dA`, in m³ (2D: m²), and the least γ in metre (C20).
     distance: f64,
     least: f64,
@@ -176,6 +178,7 @@ impl Gathered {
                 own: Vec::new(),
                 opposite: Vec::new(),
                 bulge: 0.0,
+                pressed: 0.0,
                 distance: 0.0,
                 least: f64::INFINITY,
                 here: [0.0; 2],
@@ -191,6 +194,7 @@ impl Gathered {
             share.weight += projection.areas[local];
             share.vector += projection.vectors[local];
             share.bulge += projection.bulges[local];
+            share.pressed += projection.pressed[local];
             share.distance += projection.distances[local];
             share.least = share.least.min(projection.least);
             nearer(&mut share.here, projection.here[local]);
@@ -310,7 +314,7 @@ impl Share {
             normal: normal.into(),
             opposite: means(self.opposite, &place)?,
             bulge: self.bulge / self.weight,
-            taken: 0.0,
+            taken: self.pressed / self.weight,
             distances,
             gap_vector: [0.0; 3],
             initial_gap: 0.0,

@@ -27,8 +27,8 @@ const WITHIN: f64 = 1.0 + 1e-9;
 /// Part of a facet that is round-off beside the whole.
 pub(super) const WHOLE: f64 = 1e-9;
 
-/// Part of the distance between the sides, as part of a face's size, by which a face may be bare or covered and be whole or bare:
-/// sines of the angle of 30° at most that the normals of faces which face each other have with the mean of both.
+/// Part of the distance between two sides in space by which their ends may lie beside each other and be one: the
+/// sine of the most that a face's normal has with the mean of both, 30°.
 const BESIDE: f64 = 0.5;
 
 /// Cosine above which a neighbouring facet continues the surface and does not turn a corner.

@@ -5,7 +5,7 @@
 //! (C8)   P_e = M_e⁻¹ B_e            M_e = ∫ N_i N_j dA,  B_e = ∫ N_i N²_k dA
 //! (C9)   P_i = Σ_e D_ei P_ei / D_i,   n_i ∥ Σ_e ∫ N_i (n − n²) dA
 //! (C10)  Σ_k P_ik x²_k − x_i ∥ n_i
-//! (C20)  g_i = (Σ_k P_ik x²_k − x_i) · n_i − Σ_e ∫ ψ_i b dA / D_i + l_i,   l_i ≥ min γ − Σ_e ∫ ψ_i γ dA / D_i
+//! (C20)  g_i = (Σ_k P_ik x²_k − x_i) · n_i − Σ_e ∫ ψ_i b' dA / D_i + l_i,   l_i ≥ min γ − Σ_e ∫ ψ_i γ dA / D_i
 //! ```
 //!
 //! The dual multipliers `ψ_i = Σ_j A_ij N_j`, `A = D_e M_e⁻¹`, live on side 1 and make the
@@ -107,7 +107,7 @@ pub(crate) struct MortarNode {
     pub opposite: Vec<(usize, f64)>,
     /// Mean of what facets leave of the gap (C18), in metre.
     pub bulge: f64,
-    /// The bulge, or zero if nothing is rounded, in metre.
+    /// Mean of what facets leave of the gap once it is pressed (C23), or zero if nothing is rounded, in metre.
     pub taken: f64,
     /// Distances of the sides under its dual function and on its facets (C20).
     distances: Distances,

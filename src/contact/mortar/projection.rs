@@ -50,6 +50,8 @@ pub(super) struct Projection {
     pub(super) columns: Vec<(usize, PerContact)>,
     /// `∫ ψ_i b dA`, b of both sides (C18), in m³ (2D: m²).
     pub(super) bulges: PerContact,
+    /// `∫ ψ_i b' dA` (C23), in m³ (2D: m²).
+    pub(super) pressed: PerContact,
     /// `∫ ψ_i γ dA`, γ the distance of the smooth surfaces along the normal of the piece, in m³ (2D: m²).
     pub(super) distances: PerContact,
     /// Least γ in metre: of all points where it is integrated and of the ends of parts.
@@ -66,6 +68,7 @@ impl Default for Projection {
             own: Vec::new(),
             columns: Vec::new(),
             bulges: [0.0; MOST_CONTACTS],
+            pressed: [0.0; MOST_CONTACTS],
             distances: [0.0; MOST_CONTACTS],
             least: f64::INFINITY,
             here: [[0.0; 2]; MOST_CONTACTS],
@@ -81,6 +84,8 @@ struct Meeting {
     across: [f64; MOST_FACET_NODES],
     /// b of both sides (C18), in metre.
     bulge: f64,
+    /// The same of what is pressed together (C23), in metre.
+    pressed: f64,
     /// Sum of the unit normal of side 1 and of the opposite one of side 2.
     normal: Vector3<f64>,
     /// γ, in metre.
@@ -145,9 +150,9 @@ impl Place<'_> {
         let (of_piece, of_across) = (self.seen.outline.shape(at), self.part.outline.shape(at));
         let (own, there) = (piece.shape(&of_piece), across.shape(&of_across));
         let (one, two) = (self.coverage.one, self.coverage.two);
-        let hats = piece.hats(&of_piece);
-        let bulge = one.bulges.height(piece.number, &hats)
-            + two.bulges.height(across.number, &across.hats(&of_across));
+        let (hats, hats_across) = (piece.hats(&of_piece), across.hats(&of_across));
+        let bulge =
+            one.bulges.height(piece.number, &hats) + two.bulges.height(across.number, &hats_across);
         let view = &self.seen.view;
         let height = |mesh: &Mesh, facet: &Facet, shape: &[f64]| -> f64 {
             let terms = facet.nodes.iter().zip(shape);
@@ -166,6 +171,7 @@ impl Place<'_> {
             own,
             across: there,
             bulge,
+            pressed: bulge - self.flattened([&hats, &hats_across]),
             distance: apart - one.bulges.taken(bulge),
         }
     }
@@ -175,6 +181,39 @@ impl Place<'_> {
 pub(super) fn nearer(known: &mut [f64; 2], other: [f64; 2]) {
     if other[0] > known[0] + EQUAL || (other[0] >= known[0] - EQUAL && other[1] < known[1]) {
         *known = other;
+    }
+}
+
+impl Place<'_> {
+    /// What linear displacements that make two lines one take off the sagittas of both (C23), in metre.
+    fn flattened(&self, hats: [&[f64; 4]; 2]) -> f64 {
+        let (surfaces, pieces) = (
+            [self.coverage.one, self.coverage.two],
+            [self.piece, self.across()],
+        );
+        // What follows its curve does not tell a curvature.
+        let curved = |side: usize| surfaces[side].pieces_of[pieces[side].number].len() > 1;
+        if surfaces[0].mesh.dimension != 2 || curved(0) || curved(1) {
+            return 0.0;
+        }
+        let length = |side: usize| {
+            let (mesh, nodes) = (surfaces[side].mesh, &pieces[side].corners.nodes);
+            (Vector3::from(mesh.nodes[nodes[1]]) - Vector3::from(mesh.nodes[nodes[0]])).norm()
+        };
+        let lengths = [length(0), length(1)];
+        let curvature = |side: usize| {
+            surfaces[side]
+                .bulges
+                .curvature(pieces[side].number, lengths[side])
+        };
+        let relative = (curvature(0) + curvature(1)).max(0.0);
+        let all = surfaces[0].compliance + surfaces[1].compliance;
+        let straight = (0..2).filter(|side| !pieces[*side].is_quadratic());
+        let lost = straight.map(|side| {
+            let share = surfaces[side].compliance / all;
+            share * relative * lengths[side].powi(2) * hats[side][0] * hats[side][1] / 2.0
+        });
+        lost.sum()
     }
 }
 
@@ -206,6 +245,7 @@ impl Integrals {
                 self.sums.areas[i] += weight;
                 self.sums.vectors[i] += met.normal * weight;
                 self.sums.bulges[i] += met.bulge * weight;
+                self.sums.pressed[i] += met.pressed * weight;
                 self.sums.distances[i] += met.distance * weight;
                 for (entry, other) in self.mass[i].iter_mut().zip(here) {
                     *entry += weight * other;
@@ -287,6 +327,7 @@ impl Projection {
             self.areas[contact] += other.areas[contact];
             self.vectors[contact] += other.vectors[contact];
             self.bulges[contact] += other.bulges[contact];
+            self.pressed[contact] += other.pressed[contact];
             self.distances[contact] += other.distances[contact];
         }
         self.own.extend(other.own);
@@ -303,7 +344,7 @@ impl Projection {
         let factor = Factor::new(contacts, mass);
         let nodes = self.columns.iter_mut().chain(&mut self.own);
         let columns = nodes.map(|(_, column)| column);
-        for column in columns.chain([&mut self.bulges, &mut self.distances]) {
+        for column in columns.chain([&mut self.bulges, &mut self.pressed, &mut self.distances]) {
             match &factor {
                 Some(factor) => factor.solve(column),
                 // All contacts see the mean of what covers so small a part.
