@@ -75,8 +75,8 @@ pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
-    Acting, Checked, Measured, Solution, SolvedStep, Variation, cases, cases_watched, check, limit,
-    solve, solve_half_space, solve_steps,
+    Acting, BodyStress, Checked, Measured, Solution, SolvedStep, Variation, cases, cases_watched,
+    check, limit, solve, solve_half_space, solve_steps,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

@@ -130,8 +130,8 @@ impl Setup {
     }
 }
 
-/// A solved scene.
-#[derive(Debug)]
+/// A solved scene; copies share what is large.
+#[derive(Clone, Debug)]
 pub struct Solution {
     setup: Setup,
     outcome: Outcome,
@@ -141,6 +141,16 @@ pub struct Solution {
     step: Option<SolvedStep>,
     /// Of every body, once somebody asks.
     extremes: OnceLock<Vec<Extremes>>,
+}
+
+/// Stress of a body in pascal, in the order xx, yy, zz, yz, xz, xy; z is the direction around the
+/// axis of axisymmetric bodies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyStress {
+    /// At the centre of each cell.
+    pub cells: Vec<[f64; 6]>,
+    /// At each node: the mean of the cells around it, weighted by their volume.
+    pub nodes: Vec<[f64; 6]>,
 }
 
 impl Solution {
@@ -277,6 +287,21 @@ impl Solution {
         })
     }
 
+    /// Stress of every body, in the order of the scene.
+    #[must_use]
+    pub fn stresses(&self) -> Vec<BodyStress> {
+        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        solved
+            .map(|(body, displacement)| {
+                let cells = body::cell_stress(body, displacement);
+                BodyStress {
+                    nodes: body::nodal_stress(body, displacement, &cells),
+                    cells,
+                }
+            })
+            .collect()
+    }
+
     /// Estimated error of the stress of all bodies relative to the stress, both in the energy
     /// norm (B9); 0 where there is no stress.
     #[must_use]
@@ -366,23 +391,16 @@ impl Solution {
     ///
     /// A file that cannot be written; what stood there before is then left as it was.
     pub fn write_vtu(&self, path: &Path) -> Result<(), Error> {
-        let solved = || self.setup.bodies.iter().zip(&self.displacements);
-        let stresses: Vec<_> = solved()
-            .map(|(body, displacement)| {
-                let of_cells = body::cell_stress(body, displacement);
-                (body::nodal_stress(body, displacement, &of_cells), of_cells)
-            })
-            .collect();
-        let fields: Vec<_> = solved()
+        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        let stresses = self.stresses();
+        let fields: Vec<_> = solved
             .zip(&stresses)
-            .map(
-                |((body, displacement), (nodal_stress, cell_stress))| BodyFields {
-                    mesh: &body.mesh,
-                    displacement,
-                    nodal_stress,
-                    cell_stress,
-                },
-            )
+            .map(|((body, displacement), stress)| BodyFields {
+                mesh: &body.mesh,
+                displacement,
+                nodal_stress: &stress.nodes,
+                cell_stress: &stress.cells,
+            })
             .collect();
         let of_bodies = vtu::body_vtu(&fields)?;
         let facets = &self.setup.condensed.surface().facets;

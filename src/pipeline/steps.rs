@@ -109,7 +109,7 @@ struct Past {
 }
 
 /// A load step that was solved.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SolvedStep {
     number: usize,
     at: f64,
