@@ -13,9 +13,9 @@ use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::arrays::{Numbers, Rows, column, matrix, numbers, of_matrix, rows};
+use super::arrays::{Numbers, Rows, column, indices, matrix, numbers, of_matrix, rows};
 use super::error::{Error, refused};
-use super::watched::watched;
+use super::watched::{Flag, watched};
 
 /// The Python file that knows problems in files.
 const FILES: &str = "dpana._problem";
@@ -51,13 +51,13 @@ impl Problem {
         u_free: Numbers<'_>,
         gap: Numbers<'_>,
         mu: Numbers<'_>,
-        tangents: Option<Vec<usize>>,
+        tangents: Option<Numbers<'_>>,
         modes: Option<Rows<'_>>,
         mode_load: Option<Numbers<'_>>,
     ) -> PyResult<Self> {
         let (u_free, mu) = (numbers(&u_free), numbers(&mu));
         let tangents = match tangents {
-            Some(tangents) => tangents,
+            Some(tangents) => indices("tangents", numbers(&tangents).iter())?,
             None => vec![same_tangents(u_free.len(), mu.len())?; mu.len()],
         };
         let operator = Operator::from_compliance(matrix(&G)).map_err(refused)?;
@@ -140,7 +140,7 @@ impl Problem {
             interrupt: None,
         };
         let near = near.map(|near| near.outcome.clone());
-        let outcome = watched(py, |interrupt| {
+        let outcome = watched(py, &Flag::take(), |interrupt| {
             settings.interrupt = Some(interrupt);
             match &near {
                 None => alternation::solve(&self.problem, &settings),

@@ -14,7 +14,7 @@ use super::arrays::{column, rows};
 use super::error::{Error, refused};
 use super::mesh::Mesh;
 use super::problem::Problem;
-use super::watched::watched;
+use super::watched::{Flag, watched};
 
 /// A solved scene.
 #[pyclass(module = "dpana", name = "Result", frozen)]
@@ -23,6 +23,8 @@ pub(super) struct Solved {
     report: Arc<Report>,
     /// The report without its longest parts, as Python reads it.
     short: PyOnceLock<Py<PyAny>>,
+    /// That of the solve.
+    flag: Arc<Flag>,
 }
 
 /// A body by its place in the scene or by its name.
@@ -33,8 +35,9 @@ enum Which {
 }
 
 impl Solved {
-    pub(super) fn new(solution: Solution) -> PyResult<Self> {
+    pub(super) fn new(solution: Solution, flag: Arc<Flag>) -> PyResult<Self> {
         Ok(Self {
+            flag,
             report: Arc::new(solution.report().map_err(refused)?),
             solution,
             short: PyOnceLock::new(),
@@ -206,7 +209,7 @@ impl Solved {
     /// Solves again from other starts and looks for jumps on the way here; None without a certificate.
     #[pyo3(signature = (starts=4))]
     fn trust<'py>(&self, py: Python<'py>, starts: usize) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let trust = watched(py, |_| self.solution.trust(starts))?;
+        let trust = watched(py, &self.flag, |_| self.solution.trust(starts))?;
         let mut report = Report::clone(&self.report);
         report.contacts.clear();
         report.trust = trust.map_err(refused)?;

@@ -1,6 +1,7 @@
 //! Scenes: stated as JSON with meshes beside it, as the Python class `Scene` holds them.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use dpana::condensation::Condensed;
 use dpana::deck::Deck;
@@ -13,7 +14,7 @@ use super::error::refused;
 use super::mesh::Mesh;
 use super::problem::Problem;
 use super::result::{Solved, parsed};
-use super::watched::watched;
+use super::watched::{Flag, watched};
 
 /// A scene that was read; behind `dpana.Scene`.
 #[pyclass(module = "dpana", frozen)]
@@ -65,7 +66,8 @@ impl StatedScene {
     ) -> PyResult<Solved> {
         let from = restart.map(|text| SavedState::from_json(text, "restart"));
         let from = from.transpose().map_err(refused)?;
-        let (solution, raised) = watched(py, |interrupt| {
+        let flag = Arc::new(Flag::take());
+        let (solution, raised) = watched(py, &flag, |interrupt| {
             let mut scene = self.0.clone();
             scene.settings.interrupt = Some(interrupt);
             let mut raised = None;
@@ -73,7 +75,7 @@ impl StatedScene {
                 let Some(each) = each.as_ref().filter(|_| !interrupt.is_raised()) else {
                     return Ok(());
                 };
-                show(each, solution).map_err(|error| {
+                show(each, solution, &flag).map_err(|error| {
                     raised = Some(error);
                     ended()
                 })
@@ -82,7 +84,7 @@ impl StatedScene {
         })?;
         match raised {
             Some(error) => Err(error),
-            None => Solved::new(solution.map_err(refused)?),
+            None => Solved::new(solution.map_err(refused)?, flag),
         }
     }
 
@@ -95,7 +97,7 @@ impl StatedScene {
         let variations = variations.into_iter();
         let variations = variations.map(|(name, values)| Variation { name, values });
         let variations: Vec<Variation> = variations.collect();
-        let table = watched(py, |interrupt| {
+        let table = watched(py, &Flag::take(), |interrupt| {
             let mut scene = self.0.clone();
             scene.settings.interrupt = Some(interrupt);
             dpana::cases(&scene, &variations)
@@ -142,8 +144,8 @@ impl StatedScene {
 }
 
 /// Calls `each` with a result.
-fn show(each: &Py<PyAny>, solution: &Solution) -> PyResult<()> {
-    let result = Solved::new(solution.clone())?;
+fn show(each: &Py<PyAny>, solution: &Solution, flag: &Arc<Flag>) -> PyResult<()> {
+    let result = Solved::new(solution.clone(), Arc::clone(flag))?;
     Python::attach(|py| each.call1(py, (result,)).map(drop))
 }
 

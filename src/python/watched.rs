@@ -19,15 +19,13 @@ const GLANCE: Duration = Duration::from_millis(50);
 /// Flags that no solve holds; they live as long as the program, so they are used again.
 static IDLE: Mutex<Vec<&'static AtomicBool>> = Mutex::new(Vec::new());
 
-/// A flag of one solve.
-struct Flag(&'static AtomicBool);
+/// The flag of a solve and of what is asked of its result, which remembers it.
+pub(super) struct Flag(&'static AtomicBool);
 
 impl Flag {
-    fn take() -> Self {
+    pub(super) fn take() -> Self {
         let mut idle = IDLE.lock().unwrap_or_else(PoisonError::into_inner);
-        let flag = idle.pop().unwrap_or_else(|| Box::leak(Box::default()));
-        flag.store(false, Ordering::Relaxed);
-        Self(flag)
+        Self(idle.pop().unwrap_or_else(|| Box::leak(Box::default())))
     }
 }
 
@@ -42,9 +40,10 @@ impl Drop for Flag {
 /// end.
 pub(super) fn watched<T: Send>(
     py: Python<'_>,
+    flag: &Flag,
     work: impl FnOnce(Interrupt) -> T + Send,
 ) -> PyResult<T> {
-    let flag = Flag::take();
+    flag.0.store(false, Ordering::Relaxed);
     py.detach(|| {
         let (done, finished) = sync_channel(1);
         thread::scope(|scope| {

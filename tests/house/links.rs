@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// The pages, below the crate's folder.
-const PAGES: [&str; 7] = [
+const PAGES: [&str; 8] = [
     "README.md",
     "benches/README.md",
     "examples/README.md",
@@ -12,6 +12,7 @@ const PAGES: [&str; 7] = [
     "tests/data/README.md",
     "src/method.md",
     "src/constants.md",
+    "src/python/README.md",
 ];
 
 /// Most lines of the front page.

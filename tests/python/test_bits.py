@@ -93,7 +93,7 @@ def test_the_condensed_problem_of_a_scene_solves_to_the_reactions_of_the_scene()
     result, problem = scene.solve(), scene.condense()
     assert np.array_equal(problem.G, result.problem.G)
     assert np.array_equal(problem.u_free, result.problem.u_free)
-    bare = dpana.Problem(problem.G, problem.u_free, problem.gap, problem.mu, problem.tangents.tolist())
+    bare = dpana.Problem(problem.G, problem.u_free, problem.gap, problem.mu, problem.tangents)
     for solved in (problem.solve(), bare.solve()):
         assert solved.certified
         first = np.concatenate([[0], np.cumsum(1 + problem.tangents)[:-1]])

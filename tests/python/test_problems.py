@@ -82,12 +82,13 @@ def test_a_problem_that_is_none_is_refused_with_its_place(tmp_path):
     eye = np.eye(2)
     for arguments, words in [
         (([[1, 0.1], [0, 1]], [0, 0], [0], [1]), "symmetric"),
-        ((-eye, [0, 0], [0], [1]), "definite|eigenvalue"),
+        ((-eye, [0, 0], [0], [1]), r"operator\[0\]\[0\]: -1"),
         ((eye, [0, np.nan], [0], [1]), "free_displacement.*finite"),
         ((eye, [0, 0], [0, 0], [1]), "initial_gap"),
         ((eye, [0, 0], [0], [-1]), r"friction\[0\]"),
         ((eye, [0] * 5, [0], [1]), "u_free"),
         ((eye, [0, 0], [0], [1], [3]), "tangents"),
+        ((eye, [0, 0], [0], [1], [-1]), "tangents: -1"),
     ]:
         with pytest.raises(dpana.Error, match=words):
             dpana.Problem(*arguments)

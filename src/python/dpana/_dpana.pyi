@@ -149,7 +149,7 @@ class Problem:
         u_free: ArrayLike,
         gap: ArrayLike,
         mu: ArrayLike,
-        tangents: Sequence[int] | None = None,
+        tangents: ArrayLike | None = None,
         modes: ArrayLike | None = None,
         mode_load: ArrayLike | None = None,
     ) -> Problem: ...

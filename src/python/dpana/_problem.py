@@ -33,8 +33,6 @@ def load(path: str | os.PathLike[str]) -> Problem:
         raise Error(f"problem: {path} cannot be read: {error}") from error
     if all(name in found for name in _OURS):
         more = {name: found[name] for name in _MORE if name in found}
-        if "tangents" in more:
-            more["tangents"] = more["tangents"].tolist()
         return Problem(*(found[name] for name in _OURS), **more)
     if all(name in found for name in _THEIRS):
         dimension = int(found["dimension"]) if "dimension" in found else None

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -37,10 +36,10 @@ class Scene:
         units: str = "",
         folder: str | os.PathLike[str] = "",
     ) -> None:
-        self.bodies = copy.deepcopy(list(bodies))
-        self.contacts = copy.deepcopy(list(contacts))
-        self.steps = copy.deepcopy(steps)
-        self.settings = copy.deepcopy(settings)
+        self.bodies: list[dict[str, Any]] = _copied(bodies)
+        self.contacts: list[dict[str, Any]] = _copied(contacts)
+        self.steps: dict[str, Any] | None = _copied(steps)
+        self.settings: dict[str, Any] | None = _copied(settings)
         self.title, self.units = title, units
         self.folder = Path(folder)
         #: What was read of a deck and left, by file, line and keyword.
@@ -145,23 +144,16 @@ class Scene:
 
         Names of mesh files stay as they are: write into the scene's own folder."""
         path, stated = Path(path), self.to_dict()
-        stated["bodies"] = [dict(body) for body in self.bodies]
-        for at, body in enumerate(stated["bodies"]):
-            mesh = _mesh(body.get("mesh"))
-            if mesh is not None:
-                file = path.with_name(f"{path.stem}_{at}.msh")
-                file.write_text(mesh.to_msh(), encoding="utf-8")
-                body["mesh"] = {"file": file.name}
+        stated["bodies"], meshes = _apart(self.bodies)
+        for at, mesh in meshes:
+            file = path.with_name(f"{path.stem}_{at}.msh")
+            file.write_text(mesh.to_msh(), encoding="utf-8")
+            stated["bodies"][at]["mesh"] = {"file": file.name}
         path.write_text(json.dumps(stated, indent=2, default=_plain) + "\n", encoding="utf-8")
 
     def _stated(self) -> StatedScene:
-        stated, meshes = self.to_dict(), []
-        stated["bodies"] = [dict(body) for body in self.bodies]
-        for at, body in enumerate(stated["bodies"]):
-            mesh = _mesh(body.get("mesh"))
-            if mesh is not None:
-                meshes.append((at, mesh))
-                body["mesh"] = {"file": "in memory"}
+        stated = self.to_dict()
+        stated["bodies"], meshes = _apart(self.bodies)
         source = self._source
         if source is None and self.folder != Path(""):
             source = self.folder / "scene"
@@ -191,6 +183,24 @@ def _read(path: Path) -> str:
         return path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise Error(f"scene: {path} cannot be read: {error}") from error
+
+
+def _copied(value: Any) -> Any:
+    """A copy down to what is neither dict nor list: meshes and arrays are shared."""
+    if isinstance(value, Mapping):
+        return {key: _copied(of) for key, of in value.items()}
+    return [_copied(of) for of in value] if isinstance(value, (list, tuple)) else value
+
+
+def _apart(bodies: Any) -> tuple[Any, list[tuple[int, Mesh]]]:
+    """Bodies as JSON can say them, and the meshes in memory by body."""
+    stated, meshes = _copied(bodies), []
+    for at, body in enumerate(stated if isinstance(stated, list) else []):
+        mesh = _mesh(body.get("mesh")) if isinstance(body, dict) else None
+        if mesh is not None:
+            meshes.append((at, mesh))
+            body["mesh"] = {"file": "in memory"}
+    return stated, meshes
 
 
 def _mesh(mesh: Any) -> Mesh | None:
