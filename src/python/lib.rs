@@ -26,6 +26,7 @@ use pyo3::prelude::*;
 fn _dpana(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     module.add("Error", module.py().get_type::<error::Error>())?;
+    module.add_function(wrap_pyfunction!(scene::schema, module)?)?;
     module.add_class::<mesh::Mesh>()?;
     module.add_class::<scene::StatedScene>()?;
     module.add_class::<result::Solved>()?;

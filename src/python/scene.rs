@@ -72,7 +72,10 @@ impl StatedScene {
             scene.settings.interrupt = Some(interrupt);
             let mut raised = None;
             let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
-                let Some(each) = each.as_ref().filter(|_| !interrupt.is_raised()) else {
+                if interrupt.is_raised() {
+                    return Err(ended());
+                }
+                let Some(each) = &each else {
                     return Ok(());
                 };
                 show(each, solution, &flag).map_err(|error| {
@@ -143,13 +146,19 @@ impl StatedScene {
     }
 }
 
+/// The JSON Schema of a scene as a dict.
+#[pyfunction]
+pub(super) fn schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    parsed(py, &dpana::scene::schema().to_string())
+}
+
 /// Calls `each` with a result.
 fn show(each: &Py<PyAny>, solution: &Solution, flag: &Arc<Flag>) -> PyResult<()> {
     let result = Solved::new(solution.clone(), Arc::clone(flag))?;
     Python::attach(|py| each.call1(py, (result,)).map(drop))
 }
 
-/// What ends a history where Python has raised: never shown.
+/// What ends a history where Python raises: never shown.
 fn ended() -> Refusal {
     Refusal::NotAccepted {
         place: "each".to_owned(),

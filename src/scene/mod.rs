@@ -381,6 +381,8 @@ pub(crate) fn read(place: &str, path: &Path) -> Result<Vec<u8>, Error> {
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
+    use std::sync::atomic::AtomicBool;
+
     use super::*;
     use crate::body::{CellKind, Group, Load, Mesh, Model, rectangle};
     use crate::contact::{Obstacle, Opposite};
@@ -453,6 +455,16 @@ mod tests {
         assert_eq!((contact.body, &contact.opposite), (0, &plane));
         assert_eq!(settings.max_sweeps, 7);
         assert_eq!(settings.tolerance, Settings::default().tolerance);
+    }
+
+    #[test]
+    fn a_flag_set_in_code_reaches_the_loop_and_stays_out_of_json() {
+        static FLAG: AtomicBool = AtomicBool::new(false);
+        let mut scene = Scene::from_json(SQUARE, "").unwrap();
+        scene.settings.interrupt = Some(Interrupt::new(&FLAG));
+        assert!(!scene.to_json().unwrap().contains("interrupt"));
+        let settings = scene.mechanics().unwrap().settings;
+        assert_eq!(settings.interrupt, scene.settings.interrupt);
     }
 
     #[test]

@@ -137,6 +137,20 @@ fn a_lowered_block_carries_its_pressure_evenly_whatever_its_cells() {
             2 => [across * x, -shortening * y, 0.0],
             _ => [across * x, across * y, -shortening * z],
         });
+        let stress = solution.stresses().remove(0);
+        let pressure = modulus * shortening;
+        for found in stress.cells.iter().chain(&stress.nodes) {
+            let up = found[kind.dimension() - 1];
+            assert!(
+                (up + pressure).abs() < 1e-11 * pressure,
+                "{kind:?}: {found:?}"
+            );
+            assert!(
+                found[3..]
+                    .iter()
+                    .all(|shear| shear.abs() < 1e-11 * pressure)
+            );
+        }
     }
 }
 

@@ -28,6 +28,10 @@ def test_a_scene_has_the_report_and_the_fields_of_the_command_line(program, tmp_
     assert ours.read_bytes() == last.read_bytes()
 
 
+def test_the_schema_is_that_of_the_command_line():
+    assert dpana.schema() == json.loads((SCENES / "scene.schema.json").read_text())
+
+
 def test_contacts_are_those_of_the_report(tmp_path):
     result = dpana.solve(SCENES / "square.json")
     contacts, stated = result.contacts, result.report()["contacts"]

@@ -175,7 +175,8 @@ def test_the_stubs_name_what_there_is():
     from dpana import _dpana
 
     public = {name for name in vars(_dpana) if not name.startswith("_")}
-    assert public == set(classes)
+    functions = {node.name for node in stub.body if isinstance(node, ast.FunctionDef)}
+    assert public == set(classes) | functions
     for name, node in classes.items():
         stated = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
         there = {key for key in vars(getattr(_dpana, name)) if not key.startswith("_")}

@@ -13,7 +13,7 @@ system of units of your choice. Bad input raises `Error`, a ValueError; a solve 
 no error: see `status`.
 """
 
-from ._dpana import Contacts, Error, Mesh, Problem, ProblemResult, Result, __version__
+from ._dpana import Contacts, Error, Mesh, Problem, ProblemResult, Result, __version__, schema
 from ._mesh import from_meshio
 from ._scene import Scene, solve
 
@@ -27,5 +27,6 @@ __all__ = [
     "Scene",
     "__version__",
     "from_meshio",
+    "schema",
     "solve",
 ]

@@ -13,6 +13,9 @@ _Path = str | os.PathLike[str]
 
 __version__: str
 
+def schema() -> dict[str, Any]:
+    """The JSON Schema of a scene."""
+
 class Error(ValueError):
     """An input that cannot be solved: place, value, what is accepted."""
 

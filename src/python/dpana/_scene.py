@@ -19,7 +19,7 @@ SceneLike = Union["Scene", Mapping[str, Any], str, "os.PathLike[str]"]
 class Scene:
     """Elastic bodies that may touch rigid obstacles and each other.
 
-    `bodies` and `contacts` are lists of dicts with the keys of a scene file (`dpana schema`, README);
+    `bodies` and `contacts` are lists of dicts with the keys of a scene file (`dpana.schema()`, README);
     a body's `mesh` may be a `Mesh` or a meshio mesh, numbers and lists may be NumPy's. `steps` is a load
     history, `settings` a dict. Mesh files are relative to `folder`. All of it may be changed before
     the scene is solved; it is read and checked then.
