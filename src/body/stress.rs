@@ -141,6 +141,20 @@ pub(crate) fn von_mises([xx, yy, zz, yz, xz, xy]: [f64; 6]) -> f64 {
     (0.5 * differences + 3.0 * (yz * yz + xz * xz + xy * xy)).sqrt()
 }
 
+/// Principal values, largest first, in pascal, of a stress in the order xx, yy, zz, yz, xz, xy.
+#[must_use]
+pub(crate) fn principal(stress: [f64; 6]) -> [f64; 3] {
+    // The iteration for eigenvalues would not end.
+    if stress.iter().any(|component| !component.is_finite()) {
+        return [f64::NAN; 3];
+    }
+    let [xx, yy, zz, yz, xz, xy] = stress;
+    let tensor = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    let mut values: [f64; 3] = tensor.symmetric_eigenvalues().into();
+    values.sort_unstable_by(|a, b| b.total_cmp(a));
+    values
+}
+
 /// `∂u_i/∂x_j` at a point of a cell; of a ring also `u_r/r`, around the axis.
 pub(super) fn gradient_of(
     body: &Body,
@@ -198,6 +212,20 @@ impl Field<'_> {
 mod tests {
     use super::*;
     use crate::body::CellKind;
+
+    #[test]
+    fn principal_stresses_are_sorted_from_pull_to_push() {
+        // Shear of 3 Pa in the plane xy: ±3; in the plane yz about a mean of 1 Pa: 1 ± 2.
+        assert_eq!(principal([5.0, 0.0, 0.0, 0.0, 0.0, 0.0]), [5.0, 0.0, 0.0]);
+        let near = |found: [f64; 3], expected: [f64; 3]| {
+            let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-14, "{found:?}");
+        };
+        near(principal([0.0, 0.0, -1.0, 0.0, 0.0, 3.0]), [3.0, -1.0, -3.0]);
+        assert!(principal([f64::NAN; 6])[0].is_nan());
+        near(principal([0.5, 1.0, 1.0, 2.0, 0.0, 0.0]), [3.0, 0.5, -1.0]);
+    }
+
     use crate::body::tests::samples::{block, distorted};
 
     /// Nodal values of `u = H x`.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::{self, Continuity, Table, replace_file, vtu};
+use dpana::report::{self, Cell, Continuity, Page, Table, replace_file, vtu};
 use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
@@ -15,7 +15,7 @@ use super::outputs::{check_file, check_output, is_standard, say, write_output, w
 use super::progress::Progress;
 use super::scene_file::read_scene;
 
-#[derive(Args)]
+#[derive(Args, Clone)]
 pub(crate) struct Solve {
     /// Scene in JSON (`-`: from standard input), or an Abaqus or CalculiX deck (`.inp`).
     scene: PathBuf,
@@ -26,7 +26,7 @@ pub(crate) struct Solve {
     /// beside it (`FILE_contact.vtu`, where `state` is 0 open, 1 slip, 2 stick, -1 no contact).
     ///
     /// A scene with load steps gets a file per step (`FILE_0001.vtu`) and their series beside
-    /// them (`FILE.pvd`).
+    /// them (`FILE.pvd`, `FILE_contact.pvd`). A name without an ending gets `.vtu`.
     #[arg(long, value_name = "FILE")]
     vtu: Option<PathBuf>,
     /// Draw the deformed bodies and the contact pressure to this file, in SVG; bodies in 2D only.
@@ -34,6 +34,12 @@ pub(crate) struct Solve {
     /// A scene with load steps gets the drawing of its last state.
     #[arg(long, value_name = "FILE")]
     svg: Option<PathBuf>,
+    /// Write a page to this file (HTML) that shows bodies, fields, contacts and tables in a browser; it
+    /// loads nothing else.
+    ///
+    /// A scene with load steps gets all of its states in it; one taken on by `--restart` those from there.
+    #[arg(long, value_name = "FILE")]
+    page: Option<PathBuf>,
     /// Write the totals of every state to this file: JSON if it ends so, else CSV.
     ///
     /// It is whole after every load step, and so are all other files of a history; `-` is standard
@@ -67,6 +73,7 @@ pub(crate) struct Solve {
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
+    let arguments = &arguments.completed();
     check_outputs(arguments)?;
     let axes = match &arguments.axes {
         None => None,
@@ -121,6 +128,21 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     })
 }
 
+impl Solve {
+    /// The same with an ending where a file needs one.
+    fn completed(&self) -> Self {
+        let mut completed = self.clone();
+        if let Some(vtu) = &mut completed.vtu
+            && vtu.extension().is_none()
+            && !is_standard(vtu)
+            && !vtu.is_dir()
+        {
+            vtu.set_extension("vtu");
+        }
+        completed
+    }
+}
+
 /// What there is to say of jumps on the way to a state.
 fn jump(solution: &Solution) -> Result<Option<String>, dpana::Error> {
     let found = solution.continuity()?;
@@ -134,6 +156,7 @@ struct States<'a> {
     axes: Option<(&'a str, &'a str)>,
     table: Table,
     files: Vec<(f64, PathBuf)>,
+    page: Option<Page>,
 }
 
 impl<'a> States<'a> {
@@ -149,6 +172,7 @@ impl<'a> States<'a> {
             axes,
             table: Table::default(),
             files: Vec::new(),
+            page: arguments.page.as_deref().map(Page::new),
         };
         let (Some(from), Some(steps)) = (from, &scene.steps) else {
             return Ok(states);
@@ -174,9 +198,11 @@ impl<'a> States<'a> {
         let given = match &report.step {
             None => Vec::new(),
             Some(step) => {
-                let number = [("step", step.number as f64), ("at", step.at)];
-                let number = number.map(|(name, value)| (name.to_owned(), value));
-                number.into_iter().chain(step.driven.clone()).collect()
+                let number = ("step".to_owned(), Cell::Count(step.number));
+                let at = ("at".to_owned(), step.at);
+                let values = std::iter::once(at).chain(step.driven.clone());
+                let values = values.map(|(name, value)| (name, Cell::Number(value)));
+                std::iter::once(number).chain(values).collect()
             }
         };
         let before = std::mem::take(&mut self.table.columns);
@@ -201,11 +227,19 @@ impl<'a> States<'a> {
             solution.write_vtu(&of_step)?;
             self.files.push((step.at, of_step));
             replace_file(&path.with_extension("pvd"), &vtu::series(&self.files))?;
+            let contacts = self.files.iter();
+            let contacts = contacts.map(|(at, path)| (*at, vtu::contact_path(path)));
+            let series = vtu::series(&contacts.collect::<Vec<_>>());
+            let of_contact = vtu::contact_path(path).with_extension("pvd");
+            replace_file(&of_contact, &series)?;
         } else if let Some(path) = &arguments.vtu {
             solution.write_vtu(path)?;
         }
         if let Some(path) = &arguments.svg {
             replace_file(path, &solution.to_svg()?)?;
+        }
+        if let Some(page) = &mut self.page {
+            solution.add_to_page(page)?;
         }
         // Last, so that whoever takes the history on from here finds all that came before.
         match (&arguments.state, solution.saved_state()) {
@@ -242,7 +276,7 @@ fn check_drawable(arguments: &Solve, scene: &Scene) -> Result<(), String> {
     let plane = |body: &SceneBody| !matches!(body.model, None | Some(SceneModel::Solid));
     match &arguments.svg {
         Some(path) if !scene.bodies.iter().all(plane) => Err(format!(
-            "--svg {}: bodies in 3D; expected bodies in 2D (--vtu shows those in 3D)",
+            "--svg {}: bodies in 3D; expected bodies in 2D (--page and --vtu show those in 3D)",
             path.display()
         )),
         _ => Ok(()),
@@ -261,6 +295,7 @@ fn check_outputs(arguments: &Solve) -> Result<(), String> {
         ("--report", &arguments.report),
         ("--vtu", &arguments.vtu),
         ("--svg", &arguments.svg),
+        ("--page", &arguments.page),
         ("--table", &arguments.table),
         ("--plot", &arguments.plot),
         ("--state", &arguments.state),

@@ -269,7 +269,8 @@ impl Stated {
             };
             near = (outcome.status == Status::Certified).then(|| outcome.clone());
             let report = setup.recover(outcome)?.report()?;
-            let given = self.names.iter().cloned().zip(values.iter().copied());
+            let values = values.iter().map(|&value| Cell::Number(value));
+            let given = self.names.iter().cloned().zip(values);
             table.push(&given.collect::<Vec<_>>(), &report);
             done();
         }

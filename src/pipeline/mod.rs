@@ -26,6 +26,8 @@ use crate::report::{
     Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
+#[cfg(feature = "cli")]
+use crate::report;
 use crate::{alternation, body, kkt, validity};
 
 pub use cases::{Variation, cases, cases_watched};
@@ -383,6 +385,38 @@ impl Solution {
             obstacles: &obstacles,
         }
         .to_svg()
+    }
+
+    /// Adds the state to a page to look at in a browser.
+    ///
+    /// # Errors
+    ///
+    /// A file that cannot be written.
+    #[cfg(feature = "cli")]
+    pub fn add_to_page(&self, page: &mut report::Page) -> Result<(), Error> {
+        let problem = self.setup.condensed.problem();
+        page.add(&report::PageState {
+            report: &self.report()?,
+            bodies: &self.setup.bodies,
+            displacements: &self.displacements,
+            stresses: &self.nodal_stresses(),
+            facets: &self.setup.condensed.surface().facets,
+            pairs: &self.setup.pairs,
+            obstacles: &self.setup.acting.obstacles,
+            friction: problem.friction(),
+            initial_gap: problem.initial_gap(),
+        })
+    }
+
+    /// Stress per body and node, xx, yy, zz, yz, xz, xy, in pascal.
+    #[cfg(feature = "cli")]
+    fn nodal_stresses(&self) -> Vec<Vec<[f64; 6]>> {
+        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        let stresses = solved.map(|(body, displacement)| {
+            let of_cells = body::cell_stress(body, displacement);
+            body::nodal_stress(body, displacement, &of_cells)
+        });
+        stresses.collect()
     }
 
     /// Writes the bodies to `path` and their contact surface beside it, as VTU.

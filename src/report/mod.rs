@@ -21,6 +21,7 @@
 //! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
 
+mod base64;
 mod certificate;
 mod contacts;
 mod digits;
@@ -46,6 +47,8 @@ mod step;
 mod study;
 #[cfg(feature = "cli")]
 mod study_figures;
+#[cfg(feature = "cli")]
+mod study_page;
 mod summary;
 mod svg;
 mod table;
@@ -73,6 +76,10 @@ pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
 pub use motion::ReportedMotion;
 pub(crate) use motion::{motions, significant};
+#[cfg(feature = "cli")]
+pub use page::Page;
+#[cfg(feature = "cli")]
+pub(crate) use page::PageState;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
 pub use shortfall::ReportedShortfall;

@@ -30,10 +30,8 @@ pub struct Table {
 
 impl Table {
     /// Appends the totals of a report, behind `given` values; all of one table have the same.
-    pub fn push(&mut self, given: &[(String, f64)], report: &Report) {
-        let given = given.iter().cloned();
-        let given = given.map(|(name, value)| (name, Cell::Number(value)));
-        self.add(given.chain(totals(report)));
+    pub fn push(&mut self, given: &[(String, Cell)], report: &Report) {
+        self.add(given.iter().cloned().chain(totals(report)));
     }
 
     /// Appends a row of named entries; all of one table have the same names.

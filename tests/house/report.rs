@@ -585,6 +585,12 @@ fn the_body_is_read_back_with_its_cells_and_fields() {
     for (found, expected) in found.iter().zip(expected) {
         assert!((found / expected - 1.0).abs() < 1e-14, "{found:e}");
     }
+    // Uniaxial pull and push, and pure shear: τ, 0, −τ.
+    let principal = array(&piece.data.cell, "principal_stress");
+    assert_eq!(principal[..6], [0.1, 0.0, 0.0, 0.0, 0.0, -1e-150]);
+    for (found, expected) in principal[6..].iter().zip([2e100, 0.0, -2e100]) {
+        assert!((found - expected).abs() < 1e86, "{found:e}");
+    }
     assert_eq!(array(&piece.data.cell, "body"), [0.0; 3]);
     assert_eq!(array(&piece.data.point, "body"), [0.0; 8]);
 }

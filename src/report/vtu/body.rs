@@ -1,7 +1,7 @@
 //! The bodies: displacement and stress.
 
 use super::document::{Cells, Document, Section};
-use crate::body::{CellKind, Mesh, von_mises};
+use crate::body::{CellKind, Mesh, principal, von_mises};
 use crate::error::{Error, check_length};
 
 /// Fields of a body; a field that is empty in all bodies is left out of the file.
@@ -19,9 +19,9 @@ pub struct BodyFields<'a> {
     pub cell_stress: &'a [[f64; 6]],
 }
 
-/// All bodies as one VTU document, one after the other: `displacement`, `stress`,
-/// `von_mises` at points, the latter two also at cells, and at both `body`, which body it
-/// is, from 0.
+/// All bodies as one VTU document, one after the other: `displacement`, `stress`, `von_mises`,
+/// `principal_stress` (largest first) at points, the latter three also at cells, and at both `body`,
+/// which body it is, from 0.
 ///
 /// # Errors
 ///
@@ -93,6 +93,7 @@ fn stress<'a>(
     let reordered = all().flat_map(|[xx, yy, zz, yz, xz, xy]| [xx, yy, zz, xy, yz, xz]);
     document.reals("stress", 6, reordered);
     document.reals("von_mises", 1, all().map(von_mises));
+    document.reals("principal_stress", 3, all().flat_map(principal));
 }
 
 /// The index of each body, as often as it has entries.

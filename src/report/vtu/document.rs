@@ -1,6 +1,6 @@
 //! The XML of one unstructured grid, version 1.0, numbers in base64, little endian.
 
-use super::base64;
+use crate::report::base64;
 
 /// Which entries an array belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,7 +3,6 @@
 //! Points stand where they were before loading; warp them by `displacement`. In 2D all
 //! vectors have `z = 0`. Tensors have VTK's order xx, yy, zz, xy, yz, xz.
 
-mod base64;
 mod body;
 mod contact;
 mod document;
