@@ -221,7 +221,10 @@ mod tests {
             let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs());
             assert!(off.fold(0.0, f64::max) < 1e-14, "{found:?}");
         };
-        near(principal([0.0, 0.0, -1.0, 0.0, 0.0, 3.0]), [3.0, -1.0, -3.0]);
+        near(
+            principal([0.0, 0.0, -1.0, 0.0, 0.0, 3.0]),
+            [3.0, -1.0, -3.0],
+        );
         assert!(principal([f64::NAN; 6])[0].is_nan());
         near(principal([0.5, 1.0, 1.0, 2.0, 0.0, 0.0]), [3.0, 0.5, -1.0]);
     }

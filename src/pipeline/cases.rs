@@ -11,7 +11,7 @@ use crate::body::Body;
 use crate::condensation::{Driven, Superposition};
 use crate::contact::{ContactPair, Opposite};
 use crate::error::{Error, check_finite};
-use crate::report::Table;
+use crate::report::{Cell, Table};
 use crate::scene::{Scene, driven, nearest};
 
 /// A quantity of a scene and the values that it takes.

@@ -21,13 +21,13 @@ use crate::condensation::Condensed;
 use crate::contact::{ContactPair, Opposite};
 use crate::error::Error;
 use crate::kkt::{PairFit, SceneGeometry};
+#[cfg(feature = "cli")]
+use crate::report;
 use crate::report::vtu::BodyFields;
 use crate::report::{
     Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
-#[cfg(feature = "cli")]
-use crate::report;
 use crate::{alternation, body, kkt, validity};
 
 pub use cases::{Variation, cases, cases_watched};

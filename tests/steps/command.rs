@@ -41,7 +41,7 @@ fn a_history_leaves_a_table_a_plot_and_a_series() {
     let said = solved(
         &folder,
         &[
-            "--table", "t.csv", "--plot", "loop.svg", "--axes", loop_axes, "--vtu", "pad.vtu",
+            "--table", "t.csv", "--plot", "loop.svg", "--axes", loop_axes, "--vtu", "pad",
         ],
     );
     assert!(
@@ -50,6 +50,7 @@ fn a_history_leaves_a_table_a_plot_and_a_series() {
     );
     let table = fs::read_to_string(folder.join("t.csv")).unwrap();
     assert_eq!(column(&table, "step").len(), 18);
+    assert_eq!(column(&table, "step")[..2], ["1", "2"]);
     assert_eq!(column(&table, "at")[..3], ["0.5", "1.0", "1.25"]);
     assert_eq!(column(&table, "bodies[0].supports[1]")[5], "1.0");
     assert!(
@@ -81,6 +82,8 @@ fn a_history_leaves_a_table_a_plot_and_a_series() {
     let series = fs::read_to_string(folder.join("pad.pvd")).unwrap();
     assert_eq!(series.matches("<DataSet").count(), 18);
     assert!(series.contains("timestep=\"1.25\" file=\"pad_0003.vtu\""));
+    let contacts = fs::read_to_string(folder.join("pad_contact.pvd")).unwrap();
+    assert_eq!(contacts, series.replace(".vtu", "_contact.vtu"));
     for file in ["pad_0001.vtu", "pad_0018.vtu", "pad_0018_contact.vtu"] {
         assert!(folder.join(file).is_file(), "{file}");
     }

@@ -16,7 +16,7 @@ Object.assign(Viewer.prototype, {
       ? "drag: turn · shift or right drag: move · wheel: zoom" : "drag: move · wheel: zoom";
     this.draw();
     document.documentElement.dataset.drawn = performance.now().toFixed(0);
-    document.documentElement.dataset.renderer = this.renderer.name;
+    document.documentElement.dataset.states = this.states.length;
   },
 
   fillMenus() {

@@ -31,9 +31,7 @@ impl Lattice {
 
     fn line(parts: u32) -> Self {
         Self {
-            points: (0..=parts)
-                .map(|i| [centred(i, parts), 0.0, 0.0])
-                .collect(),
+            points: (0..=parts).map(|i| [centred(i, parts), 0.0, 0.0]).collect(),
             pieces: (0..parts).map(|i| vec![i, i + 1]).collect(),
             sides: Vec::new(),
         }
@@ -73,7 +71,12 @@ impl Lattice {
         let at = |i: u32, row: u32| row * (parts + 1) + i;
         let cells = (0..parts).flat_map(|row| (0..parts).map(move |i| (i, row)));
         let pieces = cells.flat_map(|(i, row)| {
-            let corners = [at(i, row), at(i + 1, row), at(i + 1, row + 1), at(i, row + 1)];
+            let corners = [
+                at(i, row),
+                at(i + 1, row),
+                at(i + 1, row + 1),
+                at(i, row + 1),
+            ];
             [[0, 1, 2], [0, 2, 3]].map(|half| half.map(|corner| corners[corner]).to_vec())
         });
         let places = (0..=parts).flat_map(|row| (0..=parts).map(move |i| (i, row)));
@@ -127,7 +130,10 @@ mod tests {
             assert!((area(&of(6)) - 0.5).abs() < 1e-15);
             assert!((area(&of(8)) - 4.0).abs() < 1e-15);
             let pieces = (parts * parts) as usize;
-            assert_eq!((of(3).pieces.len(), of(4).pieces.len()), (pieces, 2 * pieces));
+            assert_eq!(
+                (of(3).pieces.len(), of(4).pieces.len()),
+                (pieces, 2 * pieces)
+            );
         }
     }
 

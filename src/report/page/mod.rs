@@ -172,7 +172,11 @@ fn check(parts: &PageState<'_>) -> Result<(), Error> {
     {
         let (nodes, name) = (body.mesh.nodes.len(), &body.name);
         let unknowns = nodes * body.mesh.dimension;
-        check_length(&format!("{name}: displacement"), unknowns, displacement.len())?;
+        check_length(
+            &format!("{name}: displacement"),
+            unknowns,
+            displacement.len(),
+        )?;
         check_length(&format!("{name}: stress"), nodes, stress.len())?;
     }
     let contacts = parts.report.contacts.len();
@@ -206,7 +210,10 @@ impl<'a> DrawnScene<'a> {
         let origin = middle(parts.bodies);
         let dimension = report.size.dimension;
         let surface = DrawnSurface::new(&report.contacts, skins, parts.facets, dimension);
-        let rings = parts.bodies.iter().all(|body| body.model == Model::Axisymmetric);
+        let rings = parts
+            .bodies
+            .iter()
+            .all(|body| body.model == Model::Axisymmetric);
         let bodies = parts.bodies.iter().zip(&*skins);
         let pairs = parts.pairs.iter().map(|pair| DrawnPair {
             place: &pair.place,
@@ -220,9 +227,15 @@ impl<'a> DrawnScene<'a> {
             units: &report.units,
             symbols: Symbols::of(&report.units),
             dimension,
-            axes: if rings { ["r", "z", "θ"] } else { ["x", "y", "z"] },
+            axes: if rings {
+                ["r", "z", "θ"]
+            } else {
+                ["x", "y", "z"]
+            },
             origin,
-            bodies: bodies.map(|(body, skin)| skin.drawn(body, origin)).collect(),
+            bodies: bodies
+                .map(|(body, skin)| skin.drawn(body, origin))
+                .collect(),
             contacts: DrawnContacts::new(&report.contacts, parts.bodies, parts.facets, origin),
             surface,
             pairs: pairs.collect(),
@@ -262,7 +275,9 @@ fn middle(bodies: &[Body]) -> [f64; 3] {
     let nodes = || bodies.iter().flat_map(|body| &body.mesh.nodes);
     [0, 1, 2].map(|axis| {
         let low = nodes().map(|node| node[axis]).fold(f64::INFINITY, f64::min);
-        let high = nodes().map(|node| node[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let high = nodes()
+            .map(|node| node[axis])
+            .fold(f64::NEG_INFINITY, f64::max);
         0.5 * (low + high)
     })
 }

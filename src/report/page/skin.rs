@@ -78,7 +78,8 @@ impl Skin {
             };
             let (lattice, places) = skin.lattice(facet, nodes);
             for piece in &lattice.pieces {
-                skin.triangles.extend(piece.iter().map(|&at| places[at as usize]));
+                skin.triangles
+                    .extend(piece.iter().map(|&at| places[at as usize]));
             }
             for side in &lattice.sides {
                 let points = side.iter().map(|&at| places[at as usize]);
@@ -96,7 +97,11 @@ impl Skin {
     }
 
     /// The lattice of a facet, and the drawn points of its points.
-    pub(super) fn lattice(&mut self, facet: FacetReference, nodes: &[usize]) -> (Lattice, Vec<u32>) {
+    pub(super) fn lattice(
+        &mut self,
+        facet: FacetReference,
+        nodes: &[usize],
+    ) -> (Lattice, Vec<u32>) {
         let parts = if facet.corners() == nodes.len() {
             1
         } else {
@@ -182,7 +187,13 @@ mod tests {
     fn a_plane_body_shows_all_cells_and_a_solid_one_its_surface() {
         let plane = skin(rectangle(&EVEN, &EVEN, CellKind::Quad4).unwrap());
         // 4 cells of 2 triangles; 12 edges, 8 of them outside.
-        let counts = |skin: &Skin| (skin.triangles.len() / 3, skin.lines.len() / 2, skin.outline.len() / 2);
+        let counts = |skin: &Skin| {
+            (
+                skin.triangles.len() / 3,
+                skin.lines.len() / 2,
+                skin.outline.len() / 2,
+            )
+        };
         assert_eq!((count(&plane), counts(&plane)), (9, (8, 12, 8)));
         let solid = skin(box_mesh(&EVEN, &EVEN, &EVEN, CellKind::Hex8).unwrap());
         // 24 facets of 2 triangles, 48 edges, and of these 2 on each of the box's 12; no node inside.

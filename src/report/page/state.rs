@@ -2,11 +2,11 @@
 
 use serde::Serialize;
 
+use super::PageState;
 use super::packed::Packed;
 use super::skin::Skin;
 use super::surface::padded;
 use super::words::{self, Law, Row};
-use super::PageState;
 use crate::report::{Contact, ReportedContactState, ReportedStatus};
 
 /// A state.
@@ -60,17 +60,25 @@ impl<'a> DrawnState<'a> {
         let bodies = bodies.map(|((displacement, stress), skin)| match dimension {
             2 => BodyState {
                 displacement: of_points::<2>(skin, displacement),
-                stress: Packed::reals(skin.points.means(|node| {
-                    let [xx, yy, zz, _, _, xy] = stress[node];
-                    [xx, yy, zz, xy]
-                }).flatten()),
+                stress: Packed::reals(
+                    skin.points
+                        .means(|node| {
+                            let [xx, yy, zz, _, _, xy] = stress[node];
+                            [xx, yy, zz, xy]
+                        })
+                        .flatten(),
+                ),
             },
             _ => BodyState {
                 displacement: of_points::<3>(skin, displacement),
-                stress: Packed::reals(skin.points.means(|node| {
-                    let [xx, yy, zz, yz, xz, xy] = stress[node];
-                    [xx, yy, zz, xy, yz, xz]
-                }).flatten()),
+                stress: Packed::reals(
+                    skin.points
+                        .means(|node| {
+                            let [xx, yy, zz, yz, xz, xy] = stress[node];
+                            [xx, yy, zz, xy, yz, xz]
+                        })
+                        .flatten(),
+                ),
             },
         });
         let step = report.step.as_ref();

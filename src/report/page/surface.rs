@@ -71,7 +71,11 @@ impl DrawnContacts {
             positions: Packed::reals(positions),
             normals: Packed::reals(normals),
             chain: Packed::integers(contacts.iter().map(|c| arc(c).map_or(0, |arc| arc.0))),
-            arc: Packed::reals(contacts.iter().map(|c| arc(c).map_or(f64::NAN, |arc| arc.1))),
+            arc: Packed::reals(
+                contacts
+                    .iter()
+                    .map(|c| arc(c).map_or(f64::NAN, |arc| arc.1)),
+            ),
         }
     }
 }
@@ -82,10 +86,12 @@ pub(super) fn padded(vector: &[f64]) -> [f64; 3] {
 }
 
 fn plane_arcs(bodies: &[Body], facets: &[(usize, Facet)]) -> HashMap<(usize, usize), (u32, f64)> {
-    let ends = facets.iter().filter_map(|(body, facet)| match facet.nodes[..] {
-        [first, last, ..] => Some((*body, first, last)),
-        _ => None,
-    });
+    let ends = facets
+        .iter()
+        .filter_map(|(body, facet)| match facet.nodes[..] {
+            [first, last, ..] => Some((*body, first, last)),
+            _ => None,
+        });
     let links: Vec<_> = ends.collect();
     let length = |at: usize| {
         let (body, facet) = &facets[at];
@@ -108,7 +114,8 @@ impl DrawnSurface {
                 .entry((contact.body, contact.node))
                 .or_insert(index as u32);
         }
-        let (mut body_of, mut point_of, mut of_point, mut shares) = (vec![], vec![], vec![], vec![]);
+        let (mut body_of, mut point_of, mut of_point, mut shares) =
+            (vec![], vec![], vec![], vec![]);
         let (mut pieces, mut facet_of, mut corners_of) = (vec![], vec![], vec![]);
         for (number, (body, facet)) in facets.iter().enumerate() {
             let Some(reference) = FacetReference::of(dimension, facet.nodes.len()) else {

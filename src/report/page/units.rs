@@ -39,7 +39,10 @@ mod tests {
     #[test]
     fn units_are_found_by_name_and_not_guessed() {
         let found = Symbols::of("mm, N, MPa (per millimetre of depth)");
-        assert_eq!((found.length, found.force, found.stress), ("mm", "N", "MPa"));
+        assert_eq!(
+            (found.length, found.force, found.stress),
+            ("mm", "N", "MPa")
+        );
         assert_eq!(Symbols::of("any consistent system"), Symbols::default());
         assert_eq!(Symbols::of("m, N").stress, "");
     }

@@ -304,8 +304,8 @@ class Viewer {
     }
     const { points, shares } = probe;
     const mean = (values, width, k) => points.reduce((sum, point, j) => sum + shares[j] * values[width * point + k], 0);
-    const nearest = points[shares.indexOf(Math.max(...shares))];
-    const node = model.nodes[nearest];
+    const corners = points.map((point, k) => [shares[k], model.nodes[point]]).filter(([, own]) => own !== NOWHERE);
+    const node = corners.length ? corners.sort((a, b) => b[0] - a[0])[0][1] : NOWHERE;
     const rows = model.axes.slice(0, model.dimension).map((axis, k) => [axis, shortNumber(mean(model.positions, 3, k) + model.origin[k]) + length]);
     const shown = [this.field, ...["displacement", "von_mises"].map((id) => this.fields.find((one) => one.id === id))];
     for (const field of new Set(shown)) rows.push([field.label, shortNumber(mean(field.values(state), 1, 0)) + (field.unit && ` ${field.unit}`)]);

@@ -77,7 +77,10 @@ pub(super) fn totals(report: &Report) -> Vec<Row> {
     add("largest strain", number(largest.strain.value));
     add("largest rotation, degrees", number(largest.rotation.value));
     for support in &report.supports {
-        add(&format!("support {}", support.place), vector(&support.force));
+        add(
+            &format!("support {}", support.place),
+            vector(&support.force),
+        );
     }
     if totals.pairs.len() > 1 {
         for pair in &totals.pairs {
@@ -86,7 +89,10 @@ pub(super) fn totals(report: &Report) -> Vec<Row> {
             let states = format!("{stick} / {slip} / {open}");
             add(&format!("{place}: stick / slip / open"), states);
             add(&format!("{place}: normal force"), number(totals.normal));
-            add(&format!("{place}: friction force"), vector(&totals.friction));
+            add(
+                &format!("{place}: friction force"),
+                vector(&totals.friction),
+            );
             let peak = number(totals.peak_pressure);
             add(&format!("{place}: peak pressure"), peak);
         }
@@ -116,9 +122,18 @@ pub(super) fn laws(report: &Report) -> Vec<Law> {
     let mut laws = vec![
         contact("Bodies do not penetrate", &found.penetration),
         contact("Contact pushes and never pulls", &found.tension),
-        contact("Where there is a gap there is no pressure", &found.complementarity),
-        contact("Friction stays below μ times the pressure", &found.disc_excess),
-        contact("Friction opposes slip, and is full where it slips", &found.dissipation_defect),
+        contact(
+            "Where there is a gap there is no pressure",
+            &found.complementarity,
+        ),
+        contact(
+            "Friction stays below μ times the pressure",
+            &found.disc_excess,
+        ),
+        contact(
+            "Friction opposes slip, and is full where it slips",
+            &found.dissipation_defect,
+        ),
         contact("The bodies move as the contacts say", &found.recovered),
     ];
     if let Some(ReportedDefect { value, scaled }) = found.equilibrium {
@@ -132,7 +147,10 @@ pub(super) fn laws(report: &Report) -> Vec<Law> {
         laws.push(law_of(&law, nodal.value, nodal.scaled, place(nodal.node)));
         let law = format!("{name}: supports move as given");
         laws.push(law_of(&law, given.value, given.scaled, place(given.node)));
-        for (what, defect) in [("forces", body.force_defect), ("moments", body.moment_defect)] {
+        for (what, defect) in [
+            ("forces", body.force_defect),
+            ("moments", body.moment_defect),
+        ] {
             let law = format!("{name}: all {what} add up to zero");
             laws.push(law_of(&law, defect.value, defect.scaled, String::new()));
         }
