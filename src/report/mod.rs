@@ -1,7 +1,8 @@
 //! REPORT: what the user reads.
 //!
 //! One [`Report`] holds the answer under stable names; it is written as JSON, as a short
-//! text ([`Report::summary`]) and, with the fields of the bodies, as VTU files ([`vtu`]).
+//! text ([`Report::summary`]) and, with the fields of the bodies, as VTU files ([`vtu`]) and as a page to
+//! look at in a browser (`Page`, with the feature `cli`).
 //! Lengths, forces and pressures are in the units of the scene, whose label is echoed
 //! and never converts. A contact force acts on the contact's own body; pressure is positive.
 //!

@@ -50,14 +50,19 @@ class Camera {
 
   /* The same for three numbers per point. */
   places(positions, into) {
-    const [r, u, t, s] = [this.right, this.up, this.toward, this.scale];
+    const s = this.scale;
+    const [rx, ry, rz] = this.right.map((x) => s * x);
+    const [ux, uy, uz] = this.up.map((x) => s * x);
+    const [tx, ty, tz] = this.toward.map((x) => s * x);
     const [cx, cy, cz] = this.centre;
     const [w, h] = [this.size[0] / 2, this.size[1] / 2];
     for (let i = 0; i < positions.length; i += 3) {
-      const [x, y, z] = [positions[i] - cx, positions[i + 1] - cy, positions[i + 2] - cz];
-      into[i] = w + s * (r[0] * x + r[1] * y + r[2] * z);
-      into[i + 1] = h - s * (u[0] * x + u[1] * y + u[2] * z);
-      into[i + 2] = s * (t[0] * x + t[1] * y + t[2] * z);
+      const x = positions[i] - cx;
+      const y = positions[i + 1] - cy;
+      const z = positions[i + 2] - cz;
+      into[i] = w + rx * x + ry * y + rz * z;
+      into[i + 1] = h - (ux * x + uy * y + uz * z);
+      into[i + 2] = tx * x + ty * y + tz * z;
     }
     return into;
   }

@@ -92,7 +92,7 @@ class Chart {
     const pen = this.canvas.getContext("2d");
     pen.scale(dense, dense);
     pen.font = "12px system-ui, sans-serif";
-    this.frame = [76, width - 20, 14, height - 38];
+    this.frame = [86, width - 20, 14, height - 38];
     const spread = (values) => {
       const [low, high] = values.reduce(([a, b], v) => [Math.min(a, v), Math.max(b, v)], [Infinity, -Infinity]);
       return low < high ? [low, high] : [low - (Math.abs(low) || 1) / 2, low + (Math.abs(low) || 1) / 2];
@@ -150,7 +150,7 @@ class Chart {
     const unit = this.model.symbols.length;
     pen.fillText(unit ? `${this.abscissa.label} [${unit}]` : this.abscissa.label, (left + right) / 2, bottom + 22);
     pen.save();
-    pen.translate(8, (top + bottom) / 2);
+    pen.translate(6, (top + bottom) / 2);
     pen.rotate(-Math.PI / 2);
     pen.fillText(titleOf(this.field), 0, 0);
     pen.restore();

@@ -60,8 +60,8 @@ function shortNumber(value) {
   if (value === null || value === undefined || Number.isNaN(value) || value <= BLANK) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e5 || size < 1e-3) return value.toExponential(3).replace("e+", "e").replace("-", "−").replace("e-", "e−");
-  return String(Number(value.toPrecision(4))).replace("-", "−");
+  const digits = Number(value.toPrecision(4));
+  return (size >= 1e5 || size < 1e-3 ? digits.toExponential() : String(digits)).replace("e+", "e").replaceAll("-", "−");
 }
 
 /* Round values from low to high, about `count` of them. */

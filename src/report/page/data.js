@@ -3,6 +3,7 @@
 const NOWHERE = 0xffffffff;
 
 function unpack(text, Kind) {
+  if (Uint8Array.fromBase64) return new Kind(Uint8Array.fromBase64(text).buffer);
   const letters = atob(text);
   const bytes = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
@@ -170,8 +171,8 @@ function roundScale(model, states) {
   for (const state of states) {
     let largest = 0;
     const u = state.displacement;
-    for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, Math.hypot(u[i], u[i + 1], u[i + 2]));
-    if (largest > 0) most = Math.min(most, model.extent / 12 / largest);
+    for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, u[i] ** 2 + u[i + 1] ** 2 + u[i + 2] ** 2);
+    if (largest > 0) most = Math.min(most, model.extent / 12 / Math.sqrt(largest));
     const [gap, initial] = [state.contact("gap"), state.contact("initial_gap")];
     for (let i = 0; i < gap.length; i++) {
       const approach = initial[i] - gap[i];

@@ -21,7 +21,7 @@ function vonMises(xx, yy, zz, xy, yz, xz) {
 
 function lengths(vectors) {
   const found = new Float32Array(vectors.length / 3);
-  for (let i = 0; i < found.length; i++) found[i] = Math.hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]);
+  for (let i = 0; i < found.length; i++) found[i] = Math.sqrt(vectors[3 * i] ** 2 + vectors[3 * i + 1] ** 2 + vectors[3 * i + 2] ** 2);
   return found;
 }
 

@@ -5,6 +5,7 @@
    values      a number per point, coloured by `table` over `range`; else `colour`
    alpha       below one: seen through
    shade       darker where a facet turns away
+   closed      the surface of a body, its triangles seen from outside
    clip        cut by the section */
 
 const PAPER = [226, 232, 238];
@@ -14,7 +15,7 @@ const PRESSED = [170, 68, 153];
 
 /* Parts of the extent: the highest bar of a diagram, and the ribbon that shows where contacts are. */
 const BAR = 0.11;
-const RIBBON = 0.008;
+const RIBBON = 0.014;
 
 class Scene {
   constructor(model) {
@@ -48,7 +49,7 @@ class Scene {
     for (const body of this.shown(look)) {
       layers.push({
         positions, indices: body.triangles, values, ...colours, colour: PAPER, alpha: ghost ? 0.13 : 1,
-        shade: this.model.dimension === 3, clip: true,
+        shade: this.model.dimension === 3, closed: this.model.dimension === 3 && !ghost, clip: true,
       });
       const lines = ghost && look.edges === "mesh" ? body.outline : { mesh: body.lines, outline: body.outline }[look.edges];
       if (lines) {
@@ -160,10 +161,11 @@ class Scene {
     const of = new Float32Array(2 * pieces.length);
     for (let i = 0; i < pieces.length; i++) {
       const p = pieces[i];
+      // Where a corner is no contact, the normal is that of the other one.
       const n = [0, 0];
       for (let k = 4 * p; k < 4 * p + 4; k++) {
-        if (contacts[k] === NOWHERE || shares[k] === 0) continue;
-        for (let axis = 0; axis < 2; axis++) n[axis] += shares[k] * normals[3 * contacts[k] + axis];
+        if (contacts[k] === NOWHERE) continue;
+        for (let axis = 0; axis < 2; axis++) n[axis] += (shares[k] + 1e-6) * normals[3 * contacts[k] + axis];
       }
       const length = Math.hypot(...n) || 1;
       const value = values ? values[p] : states[facet[Math.floor(i / 2)]];
@@ -242,7 +244,7 @@ class Scene {
 
   /* A patch of an obstacle in space. */
   patch({ point, direction, radius }) {
-    const reach = 0.62 * this.model.extent;
+    const reach = 0.5 * this.model.extent;
     const axes = direction ? axesAround(direction) : null;
     const rows = [];
     if (!radius) {

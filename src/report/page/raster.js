@@ -10,9 +10,11 @@ class RasterRenderer {
 
   draw(layers, camera, depth, section) {
     const { width, height } = this.canvas;
+    [this.width, this.height] = [width, height];
     if (!this.image || this.image.width !== width || this.image.height !== height) {
       this.image = this.context.createImageData(width, height);
       this.bytes = this.image.data;
+      this.words = new Uint32Array(this.bytes.buffer);
       this.depth = new Float32Array(width * height);
     }
     this.bytes.fill(0);
@@ -37,19 +39,37 @@ class RasterRenderer {
     return s[0] * x[3 * point] + s[1] * x[3 * point + 1] + s[2] * x[3 * point + 2] - s[3];
   }
 
+  /* Most triangles of a large mesh cover a pixel or two: what is done per triangle is what counts. */
   drawTriangles() {
-    const { indices } = this.layer;
-    for (let i = 0; i < indices.length; i += 3) this.triangle(indices[i], indices[i + 1], indices[i + 2]);
+    const { layer, places, section } = this;
+    const { indices } = layer;
+    // From outside, what turns away is behind what does not, unless a section opens the view.
+    const closed = layer.closed && !section;
+    for (let i = 0; i < indices.length; i += 3) {
+      const a = 3 * indices[i];
+      const b = 3 * indices[i + 1];
+      const c = 3 * indices[i + 2];
+      const bx = places[b] - places[a];
+      const by = places[b + 1] - places[a + 1];
+      const cx = places[c] - places[a];
+      const cy = places[c + 1] - places[a + 1];
+      const area = bx * cy - by * cx;
+      if (closed ? area >= 0 : area === 0) continue;
+      this.triangle(indices[i], indices[i + 1], indices[i + 2]);
+    }
   }
 
   triangle(a, b, c) {
-    const { layer, places, dense, depth } = this;
-    const { width, height } = this.canvas;
-    const [ax, ay, az] = [places[3 * a] * dense, places[3 * a + 1] * dense, places[3 * a + 2]];
-    const [bx, by, bz] = [places[3 * b] * dense - ax, places[3 * b + 1] * dense - ay, places[3 * b + 2] - az];
-    const [cx, cy, cz] = [places[3 * c] * dense - ax, places[3 * c + 1] * dense - ay, places[3 * c + 2] - az];
-    const area = bx * cy - by * cx;
-    if (Math.abs(area) < 1e-9) return;
+    const { layer, places, dense, depth, words, width, height } = this;
+    const ax = places[3 * a] * dense;
+    const ay = places[3 * a + 1] * dense;
+    const az = places[3 * a + 2];
+    const bx = places[3 * b] * dense - ax;
+    const by = places[3 * b + 1] * dense - ay;
+    const bz = places[3 * b + 2] - az;
+    const cx = places[3 * c] * dense - ax;
+    const cy = places[3 * c + 1] * dense - ay;
+    const cz = places[3 * c + 2] - az;
     const left = Math.max(0, Math.ceil(ax + Math.min(0, bx, cx) - 0.5));
     const right = Math.min(width - 1, Math.floor(ax + Math.max(0, bx, cx) - 0.5));
     const top = Math.max(0, Math.ceil(ay + Math.min(0, by, cy) - 0.5));
@@ -61,18 +81,30 @@ class RasterRenderer {
       if (far.every((d) => d > 0)) return;
       if (far.every((d) => d <= 0)) far = null;
     }
+    const area = bx * cy - by * cx;
     let light = 1;
     if (layer.shade) {
-      const [nx, ny] = [(by * cz - bz * cy) / dense, (bz * cx - bx * cz) / dense];
+      const nx = (by * cz - bz * cy) / dense;
+      const ny = (bz * cx - bx * cz) / dense;
       const nz = area / (dense * dense);
-      light = 0.58 + (0.42 * Math.abs(nz)) / Math.hypot(nx, ny, nz);
+      light = 0.58 + (0.42 * Math.abs(nz)) / Math.sqrt(nx * nx + ny * ny + nz * nz);
     }
     // What is seen through gives way to what is not.
-    const back = layer.alpha === 1 ? 0 : 2;
+    const solid = layer.alpha === 1;
+    const start = solid ? az : az - 2;
     const values = layer.values;
-    const [va, vb, vc] = values ? [values[a], values[b], values[c]] : [0, 0, 0];
-    const blank = va < -1e30 || vb < -1e30 || vc < -1e30;
-    const [low, span] = values ? [layer.range[0], Math.max(layer.range[1] - layer.range[0], 1e-37)] : [0, 1];
+    let table = layer.colour;
+    let [va, vb, vc] = [0, 0, 0];
+    if (values) {
+      // Places in the table of colours.
+      const to = 255 / Math.max(layer.range[1] - layer.range[0], 1e-37);
+      va = (values[a] - layer.range[0]) * to;
+      vb = (values[b] - layer.range[0]) * to - va;
+      vc = (values[c] - layer.range[0]) * to - va;
+      const blank = values[a] < -1e30 || values[b] < -1e30 || values[c] < -1e30;
+      table = blank ? GREY : layer.table;
+      if (blank) va = vb = vc = 0;
+    }
     for (let y = top; y <= bottom; y++) {
       const py = y + 0.5 - ay;
       for (let x = left; x <= right; x++) {
@@ -81,27 +113,22 @@ class RasterRenderer {
         const v = (bx * py - by * px) / area;
         if (u < 0 || v < 0 || u + v > 1) continue;
         if (far && far[0] + u * (far[1] - far[0]) + v * (far[2] - far[0]) > 0) continue;
-        const z = az + u * bz + v * cz - back;
+        const z = start + u * bz + v * cz;
         const at = y * width + x;
         if (z < depth[at]) continue;
-        let paint = layer.colour;
-        let first = 0;
-        if (blank) {
-          paint = GREY;
-        } else if (values) {
-          const part = (va + u * (vb - va) + v * (vc - va) - low) / span;
-          paint = layer.table;
-          first = 3 * Math.round(255 * Math.max(0, Math.min(1, part)));
+        const first = 3 * Math.max(0, Math.min(255, Math.round(va + u * vb + v * vc)));
+        if (solid) {
+          depth[at] = z;
+          words[at] = 0xff000000 | ((table[first + 2] * light) << 16) | ((table[first + 1] * light) << 8) | (table[first] * light);
+        } else {
+          this.paint(at, table, first, light, layer.alpha);
         }
-        this.paint(at, paint, first, light, layer.alpha);
-        if (layer.alpha === 1) depth[at] = z;
       }
     }
   }
 
   drawLines() {
-    const { layer, places, dense, depth } = this;
-    const { width, height } = this.canvas;
+    const { layer, places, dense, depth, width, height } = this;
     const { indices } = layer;
     for (let i = 0; i < indices.length; i += 2) {
       const [a, b] = [indices[i], indices[i + 1]];

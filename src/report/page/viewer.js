@@ -14,15 +14,24 @@ class Viewer {
       step: states.length - 1, field: "von_mises", map: "viridis", bands: false,
       range: states.length > 1 ? "all" : "step", low: NaN, high: NaN, scale: this.auto,
       edges: many ? "outline" : "mesh", undeformed: false, diagram: true,
-      hidden: new Set(), section: "", at: 0.5, flip: false, renderer: "webgl",
+      hidden: new Set(), section: "", at: 0.5, flip: false, renderer: "",
       along: Chart.abscissas(model)[0].id, profile: model.contacts.count ? "pressure" : "",
       line: model.dimension === 3, tab: "profile",
     };
     this.readAddress();
     this.drawing = $("drawing");
     this.overlay = $("overlay");
-    this.renderer = (this.wish.renderer !== "canvas" && WebglRenderer.on(this.drawing)) || new RasterRenderer(this.drawing);
+    const { renderer } = this.wish;
+    this.renderer = (renderer !== "canvas" && WebglRenderer.on(this.drawing, renderer === "webgl")) || new RasterRenderer(this.drawing);
     this.probe = null; // what is pointed at
+    // A card that is taken away leaves the canvas to go on with.
+    this.drawing.addEventListener("webglcontextlost", () => {
+      const canvas = make("canvas", "", { id: "drawing" });
+      this.drawing.replaceWith(canvas);
+      this.drawing = canvas;
+      this.renderer = new RasterRenderer(canvas);
+      this.refresh();
+    });
   }
 
   get state() {
@@ -246,22 +255,28 @@ class Viewer {
     for (const body of this.scene.shown(this.look())) {
       const { triangles } = body;
       for (let i = 0; i < triangles.length; i += 3) {
-        const [a, b, c] = [3 * triangles[i], 3 * triangles[i + 1], 3 * triangles[i + 2]];
-        const [ax, ay] = [places[a], places[a + 1]];
-        const [bx, by, cx, cy] = [places[b] - ax, places[b + 1] - ay, places[c] - ax, places[c + 1] - ay];
+        const a = 3 * triangles[i];
+        const b = 3 * triangles[i + 1];
+        const c = 3 * triangles[i + 2];
+        const bx = places[b] - places[a];
+        const by = places[b + 1] - places[a + 1];
+        const cx = places[c] - places[a];
+        const cy = places[c + 1] - places[a + 1];
         const area = bx * cy - by * cx;
         if (area === 0) continue;
-        const [px, py] = [x - ax, y - ay];
+        const px = x - places[a];
+        const py = y - places[a + 1];
         const u = (px * cy - py * cx) / area;
         if (u < 0 || u > 1) continue;
         const v = (bx * py - by * px) / area;
         if (v < 0 || u + v > 1) continue;
-        const between = (array) => array.map((values, k) => (1 - u - v) * values[a + k] + u * values[b + k] + v * values[c + k]);
-        const depth = between([0, 0, 0].map(() => places))[2];
+        const shares = [1 - u - v, u, v];
+        const between = (array, k) => shares[0] * array[a + k] + u * array[b + k] + v * array[c + k];
+        const depth = between(places, 2);
         if (found && depth <= found.depth) continue;
-        const at = between([positions, positions, positions]);
+        const at = [0, 1, 2].map((k) => between(positions, k));
         if (section && dot(section, at) > section[3]) continue;
-        found = { body, points: [a / 3, b / 3, c / 3], shares: [1 - u - v, u, v], depth, place: [x, y] };
+        found = { body, points: [a / 3, b / 3, c / 3], shares, depth, place: [x, y] };
       }
     }
     return found;

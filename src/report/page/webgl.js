@@ -48,10 +48,22 @@ void main() {
 const NO_SECTION = [0, 0, 0, 1];
 
 class WebglRenderer {
-  /* Null where there is no WebGL 2. */
-  static on(canvas) {
+  /* Null where there is no WebGL 2, or unless `anyhow` where a program stands in for the graphics card: it is
+     slower than the canvas. */
+  static on(canvas, anyhow) {
+    if (!anyhow && !WebglRenderer.hasCard()) return null;
     const gl = canvas.getContext("webgl2", { antialias: true, alpha: true });
     return gl ? new WebglRenderer(canvas, gl) : null;
+  }
+
+  static hasCard() {
+    const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
+    if (!gl) return false;
+    const named = gl.getExtension("WEBGL_debug_renderer_info");
+    const card = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : gl.getParameter(gl.RENDERER);
+    const lose = gl.getExtension("WEBGL_lose_context");
+    if (lose) lose.loseContext();
+    return !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(card);
   }
 
   constructor(canvas, gl) {
@@ -160,6 +172,9 @@ class WebglRenderer {
     gl.uniform1i(this.at.shade, layer.shade ? 1 : 0);
     gl.uniform4fv(this.at.colour, [...layer.colour.map((x) => x / 255), layer.alpha]);
     gl.uniform4fv(this.at.section, layer.clip && section ? section : NO_SECTION);
+    // From outside, what turns away is behind what does not, unless a section opens the view.
+    if (layer.closed && !section) gl.enable(gl.CULL_FACE);
+    else gl.disable(gl.CULL_FACE);
     this.buffer(layer.indices, gl.ELEMENT_ARRAY_BUFFER);
     gl.drawElements(layer.lines ? gl.LINES : gl.TRIANGLES, layer.indices.length, gl.UNSIGNED_INT, 0);
   }
