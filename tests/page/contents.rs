@@ -1,7 +1,10 @@
 //! The numbers of a page, decoded and held against closed forms.
 
 use std::fs;
+use std::path::Path;
 
+use dpana::report::Page;
+use dpana::{Scene, solve};
 use serde_json::Value;
 
 use crate::program::{dpana, folder};
@@ -147,6 +150,17 @@ fn a_history_appends_its_states_and_a_solid_body_shows_its_skin() {
             assert!((positions[3 * point as usize + 2] + 1.0).abs() < 1e-6);
         }
     }
+}
+
+#[test]
+fn a_state_of_other_bodies_is_refused() {
+    let path = folder("page_other").join("page.html");
+    let mut page = Page::new(&path);
+    solve(&strip()).unwrap().add_to_page(&mut page).unwrap();
+    let other = Scene::from_json(&block("hex8").to_string(), Path::new(".")).unwrap();
+    let refused = solve(&other).unwrap().add_to_page(&mut page);
+    assert!(refused.unwrap_err().to_string().contains("block: nodes"));
+    assert_eq!(elements(&path, "state").len(), 1);
 }
 
 #[test]

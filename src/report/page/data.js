@@ -173,10 +173,11 @@ function roundScale(model, states) {
     const u = state.displacement;
     for (let i = 0; i < u.length; i += 3) largest = Math.max(largest, u[i] ** 2 + u[i + 1] ** 2 + u[i + 2] ** 2);
     if (largest > 0) most = Math.min(most, model.extent / 12 / Math.sqrt(largest));
-    const [gap, initial] = [state.contact("gap"), state.contact("initial_gap")];
+    // Where bodies touch, the distance before loading is drawn over as often as the factor says.
+    const [gap, initial, pressure] = ["gap", "initial_gap", "pressure"].map((name) => state.contact(name));
     for (let i = 0; i < gap.length; i++) {
-      const approach = initial[i] - gap[i];
-      if (approach > 0) most = Math.min(most, (0.01 * model.extent + Math.max(initial[i], 0)) / approach);
+      const closed = pressure[i] > 0 ? Math.abs(initial[i]) : initial[i] - gap[i];
+      if (closed > 0) most = Math.min(most, (0.01 * model.extent + Math.abs(initial[i])) / closed);
     }
   }
   if (!(most > 1) || most === Infinity) return 1;

@@ -78,11 +78,11 @@ function fieldsOf(model) {
     add("Stress", `stress_${name}`, `Stress ${name}`, "stress", (state) => ofStress(state, (...s) => s[k]));
   });
   if (model.contacts.count > 0) {
-    add("Contact", "pressure", "Contact pressure", "stress", (state) => state.contact("pressure"));
-    add("Contact", "friction", "Friction traction", "stress", (state) => lengths(state.contact("friction")));
-    add("Contact", "friction_used", "Friction / bound", "", frictionUsed);
+    add("Contact", "pressure", "Contact pressure", "stress", (state) => state.contact("pressure"), { fromZero: true });
+    add("Contact", "friction", "Friction traction", "stress", (state) => lengths(state.contact("friction")), { fromZero: true });
+    add("Contact", "friction_used", "Friction / bound", "", frictionUsed, { fromZero: true });
     add("Contact", "gap", "Gap", "length", (state) => state.contact("gap"));
-    add("Contact", "slip", "Slip of the step", "length", (state) => lengths(state.contact("slip")));
+    add("Contact", "slip", "Slip of the step", "length", (state) => lengths(state.contact("slip")), { fromZero: true });
     add("Contact", "state", "State", "", (state) => Float32Array.from(state.contact("state")), { discrete: true });
   }
   return fields;
@@ -108,5 +108,6 @@ function rangeOf(field, states) {
     low = Math.min(low, least);
     high = Math.max(high, most);
   }
-  return low <= high ? [low, high] : [0, 0];
+  if (!(low <= high)) return [0, 0];
+  return [field.fromZero ? Math.min(low, 0) : low, high];
 }

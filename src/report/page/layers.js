@@ -48,7 +48,7 @@ class Scene {
     const values = look.field.contact ? null : look.field.values(look.state);
     for (const body of this.shown(look)) {
       layers.push({
-        positions, indices: body.triangles, values, ...colours, colour: PAPER, alpha: ghost ? 0.13 : 1,
+        positions, indices: body.triangles, values, ...colours, colour: PAPER, alpha: ghost ? 0.09 : 1,
         shade: this.model.dimension === 3, closed: this.model.dimension === 3 && !ghost, clip: true,
       });
       const lines = ghost && look.edges === "mesh" ? body.outline : { mesh: body.lines, outline: body.outline }[look.edges];

@@ -140,15 +140,21 @@ impl Page {
     pub(crate) fn add(&mut self, parts: &PageState<'_>) -> Result<(), Error> {
         check(parts)?;
         if !self.skins.is_empty() {
+            check_length("bodies", self.skins.len(), parts.bodies.len())?;
+            for (skin, body) in self.skins.iter().zip(parts.bodies) {
+                let place = format!("{}: nodes", body.name);
+                check_length(&place, skin.nodes, body.mesh.nodes.len())?;
+            }
             let state = element("state", &DrawnState::new(parts, &self.skins));
             return self.append(&state);
         }
         let mut skins: Vec<Skin> = parts.bodies.iter().map(Skin::new).collect();
         let scene = element("scene", &DrawnScene::new(parts, &mut skins));
         let state = element("state", &DrawnState::new(parts, &skins));
-        self.skins = skins;
         let viewer = viewer(&parts.report.title);
-        replace_file(&self.path, &[viewer, scene, state].concat())
+        replace_file(&self.path, &[viewer, scene, state].concat())?;
+        self.skins = skins;
+        Ok(())
     }
 
     fn append(&self, text: &str) -> Result<(), Error> {

@@ -19,6 +19,8 @@ const SHARP: f64 = 0.866;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Skin {
     pub(super) points: Points,
+    /// Number of nodes of its mesh.
+    pub(super) nodes: usize,
     /// Parts along each side of its quadratic facets.
     parts: u32,
     triangles: Vec<u32>,
@@ -66,6 +68,7 @@ impl Skin {
                 .collect(),
         };
         let mut skin = Self {
+            nodes: mesh.nodes.len(),
             parts: if facets.len() <= FINE { 4 } else { 2 },
             ..Self::default()
         };
