@@ -152,7 +152,7 @@ class Chart {
     pen.save();
     pen.translate(6, (top + bottom) / 2);
     pen.rotate(-Math.PI / 2);
-    pen.fillText(titleOf(this.field), 0, 0);
+    pen.fillText(titleOf(this.field), 0, 0, this.canvas.clientHeight - 8);
     pen.restore();
   }
 

@@ -88,6 +88,8 @@ class RasterRenderer {
       const ny = (bz * cx - bx * cz) / dense;
       const nz = area / (dense * dense);
       light = 0.58 + (0.42 * Math.abs(nz)) / Math.sqrt(nx * nx + ny * ny + nz * nz);
+      // The inside of a body that is cut open.
+      if (layer.closed && area > 0) light *= 0.72;
     }
     // What is seen through gives way to what is not.
     const solid = layer.alpha === 1;

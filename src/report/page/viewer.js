@@ -177,10 +177,14 @@ class Viewer {
 
   drawLegend(pen) {
     const { field } = this;
+    const marks = this.model.dimension === 2 && this.wish.diagram && this.model.contacts.count > 0;
+    const [top, height] = [42, Math.max(60, Math.min(260, this.overlay.clientHeight - 190))];
     pen.textBaseline = "middle";
     pen.textAlign = "left";
-    pen.fillStyle = "#1c2733";
     pen.font = "600 13px system-ui, sans-serif";
+    pen.fillStyle = "rgba(255, 255, 255, 0.7)";
+    pen.fillRect(8, 8, Math.max(96, pen.measureText(titleOf(field)).width + 16), field.discrete ? 98 : top + height + (marks ? 78 : 6));
+    pen.fillStyle = "#1c2733";
     pen.fillText(titleOf(field), 16, 22);
     pen.font = "12px system-ui, sans-serif";
     const swatches = (y) => STATES.slice().reverse().forEach(({ word, colour }, k) => {
@@ -196,7 +200,6 @@ class Viewer {
       return;
     }
     const [low, high] = this.range();
-    const [top, height] = [42, Math.max(60, Math.min(260, this.overlay.clientHeight - 190))];
     for (let y = 0; y < height; y++) {
       const i = Math.max(0, Math.min(255, Math.floor(256 * (1 - (y + 0.5) / height))));
       pen.fillStyle = css(this.colours.slice(3 * i, 3 * i + 3));
@@ -212,7 +215,7 @@ class Viewer {
       pen.fillRect(34, y, 4, 1);
       if (low < high || k === 0) pen.fillText(shortNumber(low + (k / count) * (high - low)), 42, y);
     }
-    if (this.model.dimension === 2 && this.wish.diagram && this.model.contacts.count) swatches(top + height + 16);
+    if (marks) swatches(top + height + 16);
   }
 
   drawAxes(pen) {

@@ -29,6 +29,7 @@ uniform vec4 section;
 uniform vec3 blank;
 uniform bool coloured;
 uniform bool shade;
+uniform bool closed;
 out vec4 painted;
 void main() {
   if (dot(section.xyz, world) > section.w) discard;
@@ -41,6 +42,8 @@ void main() {
   if (shade) {
     vec3 normal = cross(dFdx(eye), dFdy(eye));
     paint *= 0.58 + 0.42 * abs(normal.z) / max(length(normal), 1e-37);
+    // The inside of a body that is cut open.
+    if (closed && !gl_FrontFacing) paint *= 0.72;
   }
   painted = vec4(paint * colour.a, colour.a);
 }`;
@@ -72,7 +75,7 @@ class WebglRenderer {
     this.gl = gl;
     this.program = this.build();
     this.at = Object.fromEntries(
-      ["view", "rows", "nearer", "table", "range", "colour", "section", "blank", "coloured", "shade"].map((name) => [name, gl.getUniformLocation(this.program, name)]),
+      ["view", "rows", "nearer", "table", "range", "colour", "section", "blank", "coloured", "shade", "closed"].map((name) => [name, gl.getUniformLocation(this.program, name)]),
     );
     this.position = gl.getAttribLocation(this.program, "position");
     this.value = gl.getAttribLocation(this.program, "value");
@@ -170,6 +173,7 @@ class WebglRenderer {
     }
     gl.uniform1i(this.at.coloured, layer.values ? 1 : 0);
     gl.uniform1i(this.at.shade, layer.shade ? 1 : 0);
+    gl.uniform1i(this.at.closed, layer.closed ? 1 : 0);
     gl.uniform4fv(this.at.colour, [...layer.colour.map((x) => x / 255), layer.alpha]);
     gl.uniform4fv(this.at.section, layer.clip && section ? section : NO_SECTION);
     // From outside, what turns away is behind what does not, unless a section opens the view.
