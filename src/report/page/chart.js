@@ -150,7 +150,7 @@ class Chart {
     const unit = this.model.symbols.length;
     pen.fillText(unit ? `${this.abscissa.label} [${unit}]` : this.abscissa.label, (left + right) / 2, bottom + 22);
     pen.save();
-    pen.translate(6, (top + bottom) / 2);
+    pen.translate(6, this.canvas.clientHeight / 2);
     pen.rotate(-Math.PI / 2);
     pen.fillText(titleOf(this.field), 0, 0, this.canvas.clientHeight - 8);
     pen.restore();

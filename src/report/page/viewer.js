@@ -178,7 +178,7 @@ class Viewer {
   drawLegend(pen) {
     const { field } = this;
     const marks = this.model.dimension === 2 && this.wish.diagram && this.model.contacts.count > 0;
-    const [top, height] = [42, Math.max(60, Math.min(260, this.overlay.clientHeight - 190))];
+    const [top, height] = [42, Math.max(60, Math.min(260, this.overlay.clientHeight - (marks ? 238 : 160)))];
     pen.textBaseline = "middle";
     pen.textAlign = "left";
     pen.font = "600 13px system-ui, sans-serif";
