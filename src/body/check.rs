@@ -391,14 +391,7 @@ mod tests {
 
     #[test]
     fn impossible_materials_are_refused_by_name() {
-        let set = |poisson| {
-            move |b: &mut Body| {
-                b.materials[0] = Material {
-                    young: 1.0,
-                    poisson,
-                }
-            }
-        };
+        let set = |poisson| move |b: &mut Body| b.materials[0] = Material::new(1.0, poisson);
         assert_says(
             CellKind::Tri3,
             set(0.5),

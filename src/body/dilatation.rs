@@ -189,16 +189,7 @@ mod tests {
 
     #[test]
     fn only_nearly_incompressible_cells_that_feel_it_average() {
-        let of = |kind, model, poisson| {
-            Dilatation::of(
-                kind,
-                model,
-                &Material {
-                    young: 1.0,
-                    poisson,
-                },
-            )
-        };
+        let of = |kind, model, poisson| Dilatation::of(kind, model, &Material::new(1.0, poisson));
         let plate = Model::PlaneStress { thickness: 1.0 };
         assert_eq!(
             of(CellKind::Quad4, Model::PlaneStrain, 0.44),
@@ -237,18 +228,8 @@ mod tests {
     fn each_material_averages_among_its_own_cells() {
         // Two incompressible halves and a node on their border: it is the centre of two patches.
         let mut body = block(CellKind::Tri3);
-        let soft = Material {
-            young: 1.0,
-            poisson: 0.49,
-        };
-        body.materials = vec![
-            soft,
-            soft,
-            Material {
-                young: 1.0,
-                poisson: 0.3,
-            },
-        ];
+        let soft = Material::new(1.0, 0.49);
+        body.materials = vec![soft, soft, Material::new(1.0, 0.3)];
         body.material_of_cell = (0..body.mesh.cell_count()).map(|cell| cell % 3).collect();
         let patches = Patches::new(&body);
         let around = |material: usize, node: usize| {

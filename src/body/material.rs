@@ -1,4 +1,5 @@
-//! Isotropic linear elasticity: `σ = λ tr ε I + 2 μ ε`.
+//! Isotropic linear elasticity: `σ = λ tr ε I + 2 μ ε`; what heat and initial stress add is in
+//! `prestress.rs`.
 //!
 //! ```text
 //! μ = E / (2 (1 + ν)),   λ = E ν / ((1 + ν)(1 − 2 ν))     plane strain, 3D
@@ -51,6 +52,17 @@ impl Model {
 }
 
 impl Material {
+    /// A material that neither expands nor weighs anything: Young's modulus in pascal, Poisson's ratio.
+    #[must_use]
+    pub const fn new(young: f64, poisson: f64) -> Self {
+        Self {
+            young,
+            poisson,
+            expansion: 0.0,
+            density: 0.0,
+        }
+    }
+
     /// Lamé's constants in a model.
     #[must_use]
     pub fn lame(&self, model: Model) -> Lame {
@@ -69,9 +81,22 @@ impl Material {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfRange`] unless `E > 0` and `-1 < ν < 0.5`, both finite.
+    /// [`Error::OutOfRange`] unless `E > 0`, `-1 < ν < 0.5` and `ρ ≥ 0`, and α with them is finite.
     pub fn validate(&self, place: &str) -> Result<(), Error> {
         check_positive(place, "young", self.young, "0 < young < infinity")?;
+        if !(self.density >= 0.0 && self.density.is_finite()) {
+            return Err(Error::OutOfRange {
+                place: format!("{place}.density"),
+                value: self.density,
+                accepted: "0 <= density < infinity",
+            });
+        }
+        if !self.expansion.is_finite() {
+            return Err(Error::NotFinite {
+                place: format!("{place}.expansion"),
+                value: self.expansion,
+            });
+        }
         if self.poisson > -1.0 && self.poisson < 0.5 {
             return Ok(());
         }
@@ -122,10 +147,7 @@ impl Lame {
 mod tests {
     use super::*;
 
-    const MATERIAL: Material = Material {
-        young: 10.0,
-        poisson: 0.25,
-    };
+    const MATERIAL: Material = Material::new(10.0, 0.25);
 
     #[test]
     fn constants_of_a_quarter_poisson_material_are_equal() {
@@ -164,7 +186,7 @@ mod tests {
 
     #[test]
     fn materials_without_positive_energy_are_refused() {
-        let refused = |young, poisson| Material { young, poisson }.validate("m").is_err();
+        let refused = |young, poisson| Material::new(young, poisson).validate("m").is_err();
         assert!(!refused(1.0, 0.4999) && !refused(1.0, -0.9) && !refused(1.0, 0.0));
         assert!(refused(0.0, 0.3) && refused(-1.0, 0.3) && refused(f64::NAN, 0.3));
         assert!(refused(1.0, 0.5) && refused(1.0, -1.0) && refused(1.0, f64::NAN));

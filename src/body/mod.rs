@@ -102,6 +102,10 @@ pub struct Material {
     pub young: f64,
     /// Poisson's ratio, `-1 < ν < 0.5`.
     pub poisson: f64,
+    /// Thermal expansion α, in 1/kelvin.
+    pub expansion: f64,
+    /// Mass density `ρ ≥ 0`, in kg/m³.
+    pub density: f64,
 }
 
 /// Nodes whose displacement is given, component by component.

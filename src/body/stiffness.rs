@@ -279,10 +279,7 @@ mod tests {
         for kind in CellKind::all() {
             let mut body = bar(kind);
             body.materials = [10.0, 30.0]
-                .map(|young| crate::body::Material {
-                    young,
-                    poisson: 0.0,
-                })
+                .map(|young| crate::body::Material::new(young, 0.0))
                 .into();
             let mut nodes = std::mem::take(&mut body.mesh.nodes);
             let mut columns: Vec<f64> = nodes.iter().map(|x| x[0]).collect();

@@ -206,7 +206,11 @@ fn join(
         .iter()
         .map(|contact| pairs[contact.pair].friction)
         .collect();
-    let initial_gap = surface.nodes.iter().map(|node| node.initial_gap).collect();
+    let initial_gap = surface
+        .nodes
+        .iter()
+        .map(|node| node.initial_gap + pairs[node.pair].gap)
+        .collect();
     ContactProblem::new(
         &tangents,
         friction,
@@ -261,6 +265,7 @@ mod tests {
             }),
             friction: 0.4,
             rounded: true,
+            gap: 0.0,
         };
         (body, pair)
     }
@@ -458,6 +463,7 @@ mod tests {
             }),
             friction: 0.0,
             rounded: true,
+            gap: 0.0,
         };
         let condensed = Condensed::new(&[square], &[pair]).unwrap();
         assert_eq!(condensed.surface().left_out, [(0, 8)]);
@@ -553,6 +559,7 @@ mod tests {
             }),
             friction: 0.5,
             rounded: true,
+            gap: 0.0,
         };
         let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(

@@ -69,6 +69,24 @@ impl Condensed {
         Ok(())
     }
 
+    /// Takes other lengths that are added to all gaps of a pair, in metre per contact pair.
+    ///
+    /// # Errors
+    ///
+    /// Fewer lengths than pairs, a NaN or infinity.
+    pub fn open(&mut self, openings: &[f64]) -> Result<(), Error> {
+        let mut gaps = Vec::with_capacity(self.surface.nodes.len());
+        for contact in &self.surface.nodes {
+            let Some(opening) = openings.get(contact.pair) else {
+                check_length("openings", contact.pair + 1, openings.len())?;
+                continue;
+            };
+            gaps.push(contact.initial_gap + opening);
+        }
+        self.problem = self.problem.with_initial_gap(gaps)?;
+        Ok(())
+    }
+
     /// Slip of a solved state since the start of the history, in metre per unknown, for the next
     /// [`act`](Self::act); `displacement` is the judge's, `slip` what the step began with.
     #[must_use]
@@ -133,6 +151,7 @@ mod tests {
             }),
             friction: 0.0,
             rounded: true,
+            gap: 0.0,
         };
         (body, pair)
     }

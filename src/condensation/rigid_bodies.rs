@@ -225,6 +225,7 @@ mod tests {
             }),
             friction: 0.5,
             rounded: true,
+            gap: 0.0,
         };
         let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair]).unwrap();
         (body, rigid)

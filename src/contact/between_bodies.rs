@@ -259,6 +259,7 @@ mod tests {
             },
             friction: 0.3,
             rounded: true,
+            gap: 0.0,
         };
         (vec![upper, lower], pair)
     }

@@ -190,6 +190,7 @@ mod tests {
             opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
             friction: 0.3,
             rounded: true,
+            gap: 0.0,
         }
     }
 

@@ -26,6 +26,8 @@ pub struct ContactPair {
     /// Gaps are measured between the smooth surfaces that straight facets stand for, where
     /// these turn; else between the facets.
     pub rounded: bool,
+    /// Added to all gaps before loading, in metre: clearance if positive, interference if negative.
+    pub gap: f64,
 }
 
 /// The other side of a contact pair.
@@ -55,7 +57,8 @@ impl ContactPair {
                 accepted: "friction >= 0",
             });
         }
-        check_finite(&place, &[self.friction])
+        check_finite(&place, &[self.friction])?;
+        check_finite(&format!("{}.gap", self.place), &[self.gap])
     }
 }
 

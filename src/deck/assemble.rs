@@ -103,11 +103,8 @@ impl Stock<'_, '_> {
             let [young, poisson] = material.elastic.unwrap_or_default();
             let group = format!("cells of {}", material.name);
             mesh.groups.insert(group.clone(), Group::Cells(cells));
-            body.materials.push(SceneMaterial {
-                group: Some(group),
-                young,
-                poisson,
-            });
+            body.materials
+                .push(SceneMaterial::new(young, poisson).of(&group));
         }
         Building {
             body,

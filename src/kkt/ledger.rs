@@ -7,6 +7,7 @@
 //!        supports    Σ ½ (s⁰ + s) · Δu_p        s: support reactions (K4)
 //!        obstacles   Σ ½ (t⁰ + t) · Δd          d: motion of a rigid other side (C14)
 //!        fits        Σ ½ (t⁰ + t)_N min(g₀, 0)   of the step that assembles the bodies
+//!                    Σ ½ (t⁰ + t)_N Δg₀          of later ones, where a gap is changed
 //!        elastic     Δ ½ u · K u
 //!        dissipation Σ ½ μ (|t_N⁰| + |t_N|) ‖Δu_T‖   over contacts that end pressed; never negative
 //! (K10)  closure     −Σ ½ (t⁰ + t) · Δ(u_N, u_T) + fits − dissipation
@@ -70,6 +71,8 @@ pub struct ContactStep<'a> {
     pub displacement: &'a [f64],
     /// Motion of the other side during the step, in metre per unknown.
     pub moved: &'a [f64],
+    /// How far a changed gap moves the contact, in metre per contact.
+    pub opened: &'a [f64],
     /// The step begins before the bodies are assembled.
     pub assembles: bool,
 }
@@ -145,6 +148,8 @@ impl Ledger {
         ] {
             check_length(place, unknowns, values.len())?;
         }
+        let opened = contacts.opened.len();
+        check_length("changed gaps", contacts.problem.contacts(), opened)?;
         let mut ledger = Self {
             elastic: after.elastic - before.elastic,
             ..Self::default()
@@ -215,14 +220,16 @@ impl From<[f64; 7]> for Ledger {
 
 impl ContactStep<'_> {
     fn fits(&self) -> f64 {
-        if !self.assembles {
-            return 0.0;
-        }
-        let gaps = self.problem.initial_gap().iter().enumerate();
-        gaps.filter(|(_, gap)| **gap < 0.0)
-            .map(|(i, gap)| {
+        let gaps = self.problem.initial_gap().iter().zip(self.opened);
+        gaps.enumerate()
+            .map(|(i, (gap, opened))| {
+                let moved = if self.assembles {
+                    gap.min(0.0)
+                } else {
+                    *opened
+                };
                 let [before, after] = self.reaction.map(|t| block(self.problem, i, t)[0]);
-                0.5 * (before + after) * gap
+                0.5 * (before + after) * moved
             })
             .sum()
     }
@@ -260,6 +267,7 @@ mod tests {
             reaction: [&before, &after],
             displacement: &[0.0, 0.5],
             moved: &[0.1, 0.0],
+            opened: &[0.0],
             assembles: false,
         };
         Ledger::new(&none, &none, &contacts).unwrap()
@@ -277,6 +285,7 @@ mod tests {
                 reaction: [&[0.0], &[-3.0]],
                 displacement: &[-0.2],
                 moved: &[0.0],
+                opened: &[0.0],
                 assembles,
             };
             Ledger::new(&none, &none, &contacts).unwrap().fits

@@ -19,7 +19,7 @@ use crate::scene::{Scene, driven, nearest};
 /// | name | values |
 /// |---|---|
 /// | `friction`, `contacts[0].friction` | coefficient, of all contacts or of one |
-/// | `gap`, `contacts[0].gap` | added to the gap before loading, in metre |
+/// | `gap`, `contacts[0].gap` | added to the gap before loading, `gap` of the contact included, in metre |
 /// | `bodies[0].loads[1]`, `bodies[0].supports[0]` | factor |
 /// | `contacts[0].x`, `.y`, `.z` | how far the obstacle has moved, in metre |
 #[derive(Clone, Debug, PartialEq)]
@@ -306,7 +306,13 @@ impl Stated {
         condensed.act(&self.under, &factors, &obstacles, &slip)?;
         setup.acting = Acting {
             obstacles,
-            openings: gaps,
+            openings: self
+                .setup
+                .pairs
+                .iter()
+                .zip(gaps)
+                .map(|(pair, gap)| pair.gap + gap)
+                .collect(),
         };
         Ok(setup)
     }

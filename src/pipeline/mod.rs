@@ -73,6 +73,10 @@ impl Setup {
         } = mechanics;
         let condensed = Condensed::new(&bodies, &pairs)?;
         let geometry = SceneGeometry::new(&bodies, &pairs, condensed.surface())?;
+        let acting = Acting {
+            openings: pairs.iter().map(|pair| pair.gap).collect(),
+            ..Acting::default()
+        };
         Ok(Self {
             title: scene.title.clone(),
             units: scene.units.clone(),
@@ -82,7 +86,7 @@ impl Setup {
             notes,
             condensed,
             geometry: Arc::new(geometry),
-            acting: Acting::default(),
+            acting,
         })
     }
 

@@ -30,6 +30,8 @@ pub(super) struct State {
     relative: Vec<[f64; 3]>,
     /// Motion of the obstacle per contact pair, in metre.
     obstacles: Vec<[f64; 3]>,
+    /// Initial gap per contact, in metre.
+    gaps: Vec<f64>,
     /// None at rest.
     account: Option<Arc<Account>>,
 }
@@ -62,6 +64,10 @@ impl<'a> Course<'a> {
     fn act(&mut self, at: f64, slip: &[f64]) -> Result<Vec<[f64; 3]>, Error> {
         let (factors, obstacles) = (self.history.factors(at), self.history.obstacles(at));
         let condensed = &mut self.setup.condensed;
+        if let Some(openings) = self.history.openings(at) {
+            condensed.open(&openings)?;
+            self.setup.acting.openings = openings;
+        }
         condensed.act(&self.under, &factors, &obstacles, slip)?;
         self.setup.acting.obstacles.clone_from(&obstacles);
         Ok(obstacles)
@@ -85,6 +91,7 @@ impl<'a> Course<'a> {
             motion,
             slip,
             obstacles,
+            gaps: self.setup.condensed.problem().initial_gap().to_vec(),
         })
     }
 
@@ -114,6 +121,7 @@ impl<'a> Course<'a> {
                 reaction: [&from.reaction, &outcome.reaction],
                 displacement,
                 moved: &moved(condensed.surface(), &from.obstacles, &obstacles),
+                opened: &from.opened(problem, condensed.surface()),
                 assembles: from.account.is_none(),
             },
         )?;
@@ -123,6 +131,7 @@ impl<'a> Course<'a> {
             slip: condensed.slip(displacement, &from.slip),
             relative: setup.relative(&displacements, &obstacles),
             obstacles,
+            gaps: problem.initial_gap().to_vec(),
             account: Some(Arc::new(account)),
         };
         Ok(Reached {
@@ -146,6 +155,7 @@ impl State {
             slip: vec![0.0; problem.unknowns()],
             relative: vec![[0.0; 3]; problem.contacts()],
             obstacles: vec![[0.0; 3]; setup.pairs.len()],
+            gaps: problem.initial_gap().to_vec(),
             account: None,
         }
     }
@@ -160,16 +170,43 @@ impl State {
             return Earlier::rest(problem);
         }
         let mut displacement = vec![0.0; problem.unknowns()];
-        let contacts = surface.nodes.iter().zip(&self.relative);
-        for (&n, (contact, relative)) in problem.normals().iter().zip(contacts) {
-            let along = contact.frame[0].iter().zip(relative);
-            displacement[n] = along.map(|(axis, u)| axis * u).sum();
+        let gaps = self.gaps.iter().zip(problem.initial_gap());
+        let contacts = self.approaches(surface).zip(gaps);
+        for (&n, (approach, (before, gap))) in problem.normals().iter().zip(contacts) {
+            // What is left of the gap is the same.
+            displacement[n] = approach + (gap - before);
         }
         Earlier {
             reaction: self.reaction.clone(),
             displacement,
             motion: self.motion.clone(),
         }
+    }
+
+    /// Displacement of each contact along its normal, in metre.
+    fn approaches<'a>(&'a self, surface: &'a ContactSurface) -> impl Iterator<Item = f64> + 'a {
+        let contacts = surface.nodes.iter().zip(&self.relative);
+        contacts.map(|(contact, relative)| {
+            let along = contact.frame[0].iter().zip(relative);
+            along.map(|(axis, u)| axis * u).sum()
+        })
+    }
+
+    /// How far a gap that changes from here to a later problem moves each contact, in metre: all of the
+    /// change where it is pressed, and where it is open what no displacement leaves room for.
+    fn opened(&self, problem: &ContactProblem, surface: &ContactSurface) -> Vec<f64> {
+        let normals = problem.normals().iter();
+        let gaps = self.gaps.iter().zip(problem.initial_gap());
+        let contacts = normals.zip(self.approaches(surface)).zip(gaps);
+        contacts
+            .map(
+                |((&n, approach), (before, gap))| match (gap == before, self.reaction[n] < 0.0) {
+                    (true, _) => 0.0,
+                    (false, true) => gap - before,
+                    (false, false) => (gap - approach).min(0.0),
+                },
+            )
+            .collect()
     }
 
     /// Elastic energy of all bodies, in joule.

@@ -32,6 +32,16 @@ pub struct SceneContact {
     /// Gaps are measured between the smooth surfaces that straight facets stand for, as the turns
     /// between these say; `false`: between the facets. Left out, they are rounded.
     pub rounded: Option<bool>,
+    /// Length added to all gaps of the contact before loading: clearance if positive, interference if
+    /// negative; 0 when left out. Meshes may be drawn touching.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub gap: f64,
+}
+
+// The signature is serde's.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
@@ -121,6 +131,14 @@ impl SceneContact {
         self
     }
 
+    /// The same with a length added to all gaps before loading: clearance if positive, interference if
+    /// negative.
+    #[must_use]
+    pub fn with_gap(mut self, gap: f64) -> Self {
+        self.gap = gap;
+        self
+    }
+
     /// The contact in the terms of mechanics.
     pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
         let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
@@ -129,6 +147,12 @@ impl SceneContact {
                 place: format!("{place}.friction"),
                 value: self.friction,
                 accepted: "0 <= friction < infinity",
+            });
+        }
+        if !self.gap.is_finite() {
+            return Err(Error::NotFinite {
+                place: format!("{place}.gap"),
+                value: self.gap,
             });
         }
         let mesh = &bodies[body].mesh;
@@ -156,6 +180,7 @@ impl SceneContact {
             opposite,
             friction: self.friction,
             rounded: self.rounded.unwrap_or(true),
+            gap: self.gap,
         })
     }
 }

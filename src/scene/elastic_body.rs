@@ -71,6 +71,14 @@ pub struct SceneMaterial {
     /// Poisson's ratio, `-1 < ν < 0.5`.
     #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5)))]
     pub poisson: f64,
+    /// Thermal expansion per unit of temperature, for loads by `temperature`; 0 when left out.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub expansion: f64,
+    /// Mass per volume `ρ ≥ 0`, for loads by `gravity` and `centrifugal`; 0 when left out. Masses are
+    /// consistent with the other units: with mm, N and s it is in t/mm³ (steel: 7.85e-9).
+    #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub density: f64,
 }
 
 /// Models of a mesh in 2D.
@@ -84,7 +92,23 @@ impl SceneMaterial {
             group: None,
             young,
             poisson,
+            expansion: 0.0,
+            density: 0.0,
         }
+    }
+
+    /// The same with a thermal expansion, per unit of temperature.
+    #[must_use]
+    pub fn with_expansion(mut self, expansion: f64) -> Self {
+        self.expansion = expansion;
+        self
+    }
+
+    /// The same with a mass per volume.
+    #[must_use]
+    pub fn with_density(mut self, density: f64) -> Self {
+        self.density = density;
+        self
     }
 
     /// The same for a group of cells only.
@@ -212,8 +236,9 @@ impl SceneBody {
         for (number, stated) in self.materials.iter().enumerate() {
             let place = format!("{place}.materials[{number}]");
             let material = Material {
-                young: stated.young,
-                poisson: stated.poisson,
+                expansion: stated.expansion,
+                density: stated.density,
+                ..Material::new(stated.young, stated.poisson)
             };
             material.validate(&place)?;
             materials.push(material);

@@ -472,11 +472,7 @@ mod tests {
         let mut mesh = rectangle(&[0.0, 1.0, 3.0], &[0.0, 1.0], CellKind::Quad4).unwrap();
         mesh.groups.insert("soft".into(), Group::Cells(vec![1]));
         mesh.groups.insert("stiff".into(), Group::Cells(vec![0]));
-        let material = |group: &str, young| SceneMaterial {
-            group: Some(group.into()),
-            young,
-            poisson: 0.0,
-        };
+        let material = |group: &str, young| SceneMaterial::new(young, 0.0).of(group);
         let scene = Scene {
             bodies: vec![SceneBody {
                 name: "bar".into(),
@@ -496,6 +492,7 @@ mod tests {
                 against: None,
                 friction: 0.0,
                 rounded: None,
+                gap: 0.0,
             }],
             ..Scene::default()
         };

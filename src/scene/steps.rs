@@ -1,8 +1,8 @@
 //! Load steps: the instants at which a state is solved, and what changes from one to the next.
 //!
 //! `at` are the instants, rising, from bodies at rest without any load. `factors` multiply a load or
-//! support over the instants, `obstacles` move an obstacle from where the scene puts it. Tables are linear
-//! between rows and constant outside; what has no table acts in full throughout. A support may be split in
+//! support over the instants, `obstacles` move an obstacle from where the scene puts it, `gaps` add a length to
+//! all gaps of a contact. Tables are linear between rows and constant outside; what has no table acts in full throughout. A support may be split in
 //! two, one per component, so that each has its table. In every step Coulomb's law sees the slip since the
 //! state before; a contact that was open takes up its slip from where it was last seen open. Where surfaces
 //! are inclined and bodies approach, several steps of approach tell better than one where each contact
@@ -44,7 +44,7 @@ use crate::error::{Error, check_finite};
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(
     deny_unknown_fields,
-    expecting = "an object with at, and factors or obstacles"
+    expecting = "an object with at, and factors, obstacles or gaps"
 )]
 pub struct SceneSteps {
     /// Instants at which a state is solved, rising; any parameter of the history will do.
@@ -61,6 +61,10 @@ pub struct SceneSteps {
     /// motion across the normals of an obstacle of radius R.
     #[serde(default)]
     pub obstacles: BTreeMap<String, Vec<Vec<f64>>>,
+    /// Length added to all gaps of a contact, in place of its `gap`: rows `[instant, gap]`, rising, under the
+    /// place of the contact, such as `contacts[0]`. Clearance if positive, interference if negative.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub gaps: BTreeMap<String, Vec<Vec<f64>>>,
     /// Left out, every step is solved once. Given, also in halves, and in halves of these, until
     /// the ledger leaves at most this part of the work unexplained, and halving changes the
     /// dissipated energy by at most this part of the work, and the state of contacts on at most this
@@ -77,6 +81,9 @@ pub struct LoadHistory {
     instants: Vec<f64>,
     factors: Vec<(Driven, Table)>,
     obstacles: Vec<(usize, Table)>,
+    gaps: Vec<(usize, Table)>,
+    /// Stated gap per contact, in metre.
+    stated: Vec<f64>,
     contacts: usize,
     resolution: Option<f64>,
 }
@@ -110,6 +117,7 @@ impl SceneSteps {
         let mut history = LoadHistory {
             instants: self.at.clone(),
             contacts: contacts.len(),
+            stated: contacts.iter().map(|pair| pair.gap).collect(),
             resolution: self.resolve,
             ..LoadHistory::default()
         };
@@ -139,8 +147,32 @@ impl SceneSteps {
             let table = Table::new(&place, rows, dimension)?;
             history.obstacles.push((*contact, table));
         }
+        for (name, rows) in &self.gaps {
+            history.gaps.push(gap_table(name, rows, contacts)?);
+        }
         Ok(history)
     }
+}
+
+/// The table of a contact's gap, and the number of the contact.
+fn gap_table(
+    name: &str,
+    rows: &[Vec<f64>],
+    contacts: &[ContactPair],
+) -> Result<(usize, Table), Error> {
+    let place = format!("steps.gaps.{name}");
+    let known = contacts.iter().map(|pair| pair.place.as_str());
+    let contact = (known.clone().position(|known| known == name))
+        .ok_or_else(|| unknown(&place, "contact", name, known))?;
+    let stated = contacts[contact].gap;
+    if stated != 0.0 {
+        return Err(Error::NotAccepted {
+            place,
+            found: format!("a table beside `gap`: {stated} of {name}"),
+            accepted: "one of the two: the table stands in place of the number".to_owned(),
+        });
+    }
+    Ok((contact, Table::new(&place, rows, 1)?))
 }
 
 /// Every load and support of bodies, by its place in the scene, such as `bodies[0].loads[1]`.
@@ -216,6 +248,19 @@ impl LoadHistory {
         moved
     }
 
+    /// Length added to all gaps of every contact at an instant, in metre; none where no gap changes.
+    #[must_use]
+    pub fn openings(&self, instant: f64) -> Option<Vec<f64>> {
+        if self.gaps.is_empty() {
+            return None;
+        }
+        let mut openings = self.stated.clone();
+        for (contact, table) in &self.gaps {
+            openings[*contact] = table.at(instant)[0];
+        }
+        Some(openings)
+    }
+
     /// Every table's value at an instant, under the place of what it drives.
     #[must_use]
     pub fn values(&self, instant: f64) -> Vec<(String, f64)> {
@@ -225,6 +270,9 @@ impl LoadHistory {
             let axes = ["x", "y", "z"].into_iter().zip(table.at(instant));
             axes.map(move |(axis, value)| (format!("contacts[{contact}].{axis}"), value))
         });
-        factors.chain(obstacles).collect()
+        let gaps = self.gaps.iter();
+        let gaps =
+            gaps.map(|(contact, table)| (format!("contacts[{contact}].gap"), table.at(instant)[0]));
+        factors.chain(obstacles).chain(gaps).collect()
     }
 }

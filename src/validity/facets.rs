@@ -68,7 +68,10 @@ pub(super) fn facets(
         return None;
     }
     let off = 2.0 / 3.0 * bends.iter().map(|bend| bend.sagitta).sum::<f64>().abs();
-    let moved = pressed.iter().map(|contact| contact.initial_gap.abs());
+    let stated = of_pair.gap;
+    let moved = pressed
+        .iter()
+        .map(|contact| (contact.initial_gap + stated).abs());
     let moved = moved.fold(0.0, f64::max);
     (off > OF_OVERLAP * moved && moved > 0.0).then(|| {
         format!(

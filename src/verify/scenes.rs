@@ -23,11 +23,7 @@ pub(super) fn body(name: &str, mesh: Mesh, material: Elastic) -> SceneBody {
         name: name.to_owned(),
         model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
         mesh: MeshSource::Given(mesh),
-        materials: vec![SceneMaterial {
-            group: None,
-            young: material.young,
-            poisson: material.poisson,
-        }],
+        materials: vec![SceneMaterial::new(material.young, material.poisson)],
         supports: Vec::new(),
         loads: Vec::new(),
     }
@@ -79,6 +75,7 @@ pub(super) fn pair(bodies: [SceneBody; 2], groups: [&str; 2], friction: f64) -> 
         }),
         friction,
         rounded: None,
+        gap: 0.0,
     };
     Scene {
         bodies: bodies.to_vec(),

@@ -71,6 +71,7 @@ impl Pressing {
             against: None,
             friction: self.friction,
             rounded: None,
+            gap: 0.0,
         });
         certified(&scene)
     }

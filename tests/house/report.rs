@@ -49,6 +49,7 @@ fn pair(place: &str, opposite: Opposite) -> ContactPair {
         opposite,
         friction: 0.5,
         rounded: true,
+        gap: 0.0,
     }
 }
 

@@ -24,11 +24,7 @@ pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBod
         name: name.to_owned(),
         model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
         mesh: MeshSource::Given(mesh),
-        materials: vec![SceneMaterial {
-            group: None,
-            young,
-            poisson,
-        }],
+        materials: vec![SceneMaterial::new(young, poisson)],
         supports: Vec::new(),
         loads: Vec::new(),
     }
@@ -58,6 +54,7 @@ pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneC
         }),
         friction,
         rounded: None,
+        gap: 0.0,
     }
 }
 

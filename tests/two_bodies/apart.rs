@@ -31,10 +31,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
         material_of_cell: vec![0; mesh.cell_count()],
         mesh,
         model: Model::PlaneStrain,
-        materials: vec![Material {
-            young: 1e3,
-            poisson: 0.3,
-        }],
+        materials: vec![Material::new(1e3, 0.3)],
         supports,
         loads: vec![Load::Pressure {
             facets: top,
@@ -62,6 +59,7 @@ fn on_floor(index: usize, body: &Body) -> ContactPair {
         }),
         friction: 0.3,
         rounded: true,
+        gap: 0.0,
     }
 }
 

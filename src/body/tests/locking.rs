@@ -45,11 +45,8 @@ fn sides(kind: CellKind) -> [&'static str; 2] {
 
 /// The same plane body with the plain form of the λ-term.
 fn plain(mut body: Body) -> Body {
-    let Material { young, poisson } = body.materials[0];
-    body.materials[0] = Material {
-        young: young / (1.0 - poisson * poisson),
-        poisson: poisson / (1.0 - poisson),
-    };
+    let Material { young, poisson, .. } = body.materials[0];
+    body.materials[0] = Material::new(young / (1.0 - poisson * poisson), poisson / (1.0 - poisson));
     body.model = Model::PlaneStress { thickness: 1.0 };
     body
 }

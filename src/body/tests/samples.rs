@@ -29,10 +29,7 @@ pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
         material_of_cell: vec![0; mesh.cell_count()],
         mesh,
         model,
-        materials: vec![Material {
-            young: 10.0,
-            poisson,
-        }],
+        materials: vec![Material::new(10.0, poisson)],
         supports: Vec::new(),
         loads: Vec::new(),
     }

@@ -50,6 +50,7 @@ pub(crate) fn pairs() -> Vec<ContactPair> {
         opposite,
         friction: 0.5,
         rounded: true,
+        gap: 0.0,
     };
     let plane = Obstacle::Plane {
         point: [0.0; 3],

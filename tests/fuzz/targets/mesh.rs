@@ -51,11 +51,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
         bodies: vec![SceneBody {
             name: "part".into(),
             model: (dimension == 2).then_some(SceneModel::PlaneStrain),
-            materials: vec![SceneMaterial {
-                group: None,
-                young: 1000.0,
-                poisson: 0.3,
-            }],
+            materials: vec![SceneMaterial::new(1000.0, 0.3)],
             supports: if choice % 2 == 0 { vec![hold] } else { vec![] },
             loads: vec![load],
             mesh: MeshSource::Given(mesh),
@@ -70,6 +66,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
             }),
             friction: 0.3,
             rounded: None,
+            gap: 0.0,
         }],
         ..Scene::default()
     }
