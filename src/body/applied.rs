@@ -4,10 +4,10 @@ use std::collections::HashSet;
 
 use super::boundary::Owners;
 use super::entries::{check_indices, check_vector};
-use super::{Body, Facet, Load};
-use crate::error::{Error, check_finite};
+use super::{Body, Facet, Ground, Line, Load, Material, Model, Wrench};
+use crate::error::{Error, check_finite, check_length};
 
-/// Checks nodes and values of every support.
+/// Checks nodes and values of every support, and of every spring.
 pub(super) fn check_supports(body: &Body) -> Result<(), Error> {
     for support in &body.supports {
         let place = || support.place.clone();
@@ -15,41 +15,213 @@ pub(super) fn check_supports(body: &Body) -> Result<(), Error> {
         check_indices(place, "node", &support.nodes, body.mesh.nodes.len())?;
         let values = support.displacement.map(|value| value.unwrap_or(0.0));
         check_vector(body, || format!("{}.displacement", support.place), &values)?;
+        if !support.offsets.is_empty() {
+            let place = format!("{}.offsets", support.place);
+            check_length(&place, support.nodes.len(), support.offsets.len())?;
+        }
+        for offset in &support.offsets {
+            check_vector(body, || format!("{}.offsets", support.place), offset)?;
+        }
+    }
+    for spring in &body.foundation {
+        spring.check(body)?;
+        let place = || spring.place.clone();
+        if let Ground::Area(facets) = &spring.on {
+            let owners = Owners::new(&body.mesh, facets.iter());
+            check_facets(body, place, facets, &owners)?;
+        }
     }
     Ok(())
 }
 
 /// Checks facets, cells, nodes and values of every load.
 pub(super) fn check_loads(body: &Body) -> Result<(), Error> {
-    let listed = body.loads.iter().flat_map(|load| match load {
-        Load::Pressure { facets, .. } | Load::Traction { facets, .. } => facets.as_slice(),
-        Load::BodyForce { .. } | Load::PointForce { .. } => &[],
-    });
+    let listed = body.loads.iter().flat_map(facets_of);
     let owners = Owners::new(&body.mesh, listed);
     for (index, load) in body.loads.iter().enumerate() {
         let place = || format!("{}: loads[{index}]", body.name);
+        check_values(body, place, load)?;
         match load {
-            Load::Pressure { facets, pressure } => {
-                check_finite(&format!("{}.pressure", place()), &[*pressure])?;
-                check_facets(body, place, facets, &owners)?;
+            Load::PointForce { node, .. } => {
+                check_indices(place, "node", &[*node], body.mesh.nodes.len())?;
             }
-            Load::Traction { facets, traction } => {
-                check_vector(body, || format!("{}.traction", place()), traction)?;
-                check_facets(body, place, facets, &owners)?;
-            }
-            Load::BodyForce { cells, density } => {
-                check_vector(body, || format!("{}.density", place()), density)?;
+            Load::BodyForce { cells, .. }
+            | Load::Gravity { cells, .. }
+            | Load::Centrifugal { cells, .. }
+            | Load::Temperature { cells, .. }
+            | Load::InitialStress { cells, .. } => {
                 check_not_empty(place, cells.len())?;
                 check_indices(place, "cell", cells, body.mesh.cell_count())?;
                 check_once(place, "cell", cells.iter().map(|cell| vec![*cell]))?;
+                check_material(body, place, load, cells)?;
             }
-            Load::PointForce { node, force } => {
-                check_vector(body, || format!("{}.force", place()), force)?;
-                check_indices(place, "node", &[*node], body.mesh.nodes.len())?;
-            }
+            Load::Pressure { .. }
+            | Load::Traction { .. }
+            | Load::VaryingPressure { .. }
+            | Load::VaryingTraction { .. }
+            | Load::Spread { .. } => check_facets(body, place, facets_of(load), &owners)?,
         }
     }
     Ok(())
+}
+
+/// The facets of a load on the surface.
+fn facets_of(load: &Load) -> &[Facet] {
+    match load {
+        Load::Pressure { facets, .. }
+        | Load::Traction { facets, .. }
+        | Load::VaryingPressure { facets, .. }
+        | Load::VaryingTraction { facets, .. }
+        | Load::Spread { facets, .. } => facets,
+        _ => &[],
+    }
+}
+
+/// Numbers of a load.
+fn check_values(body: &Body, place: impl Fn() -> String, load: &Load) -> Result<(), Error> {
+    let at = |field: &'static str| move |place: String| format!("{place}.{field}");
+    let vector = |field, value: [f64; 3]| check_vector(body, || at(field)(place()), &value);
+    match load {
+        Load::Pressure { pressure, .. } => check_finite(&at("pressure")(place()), &[*pressure]),
+        Load::Traction { traction, .. } => vector("traction", *traction),
+        Load::BodyForce { density, .. } => vector("density", *density),
+        Load::PointForce { force, .. } => vector("force", *force),
+        Load::VaryingPressure { pressure, .. } => {
+            check_finite(&at("pressure")(place()), &[pressure.value])?;
+            vector("pressure.gradient", pressure.gradient)
+        }
+        Load::VaryingTraction { traction, .. } => {
+            vector("traction", traction.map(|component| component.value))?;
+            let gradients = traction.iter().map(|component| component.gradient);
+            gradients.map(|g| vector("traction.gradient", g)).collect()
+        }
+        Load::Spread { wrench, .. } => check_wrench(body, place, wrench),
+        Load::Gravity { acceleration, .. } => vector("acceleration", *acceleration),
+        Load::Centrifugal {
+            axis,
+            speed_squared,
+            ..
+        } => {
+            check_finite(&at("speed_squared")(place()), &[*speed_squared])?;
+            check_finite(&at("axis.point")(place()), &axis.point)?;
+            check_finite(&at("axis.direction")(place()), &axis.direction)?;
+            check_spin(body, place, axis)
+        }
+        Load::Temperature { rise, .. } => {
+            check_length(&at("rise")(place()), body.mesh.nodes.len(), rise.len())?;
+            check_finite(&at("rise")(place()), rise)
+        }
+        Load::InitialStress { stress, .. } => {
+            check_finite(&at("stress")(place()), stress)?;
+            check_in_plane(body, place, stress)
+        }
+    }
+}
+
+/// A wrench moves a body in its own space, a ring along its axis only.
+fn check_wrench(body: &Body, place: impl Fn() -> String, wrench: &Wrench) -> Result<(), Error> {
+    check_vector(body, || format!("{}.force", place()), &wrench.force)?;
+    check_finite(&format!("{}.moment", place()), &wrench.moment)?;
+    if let Some(at) = &wrench.at {
+        check_vector(body, || format!("{}.at", place()), at)?;
+    }
+    let (force, moment) = (wrench.force, wrench.moment);
+    let refused = match body.model {
+        Model::Axisymmetric if force[0] != 0.0 => Some((
+            "force[0]",
+            force[0],
+            "0, for across the axis a ring's forces are no resultant",
+        )),
+        Model::Axisymmetric => {
+            (moment != [0.0; 3]).then_some(("moment", moment[2], "0, for the body is axisymmetric"))
+        }
+        Model::Solid => None,
+        _ => moment[..2].iter().find(|m| **m != 0.0).map(|m| {
+            (
+                "moment",
+                *m,
+                "a moment about z alone, for the body is plane",
+            )
+        }),
+    };
+    match refused {
+        None => Ok(()),
+        Some((field, value, accepted)) => Err(Error::OutOfRange {
+            place: format!("{}.{field}", place()),
+            value,
+            accepted,
+        }),
+    }
+}
+
+/// A body spins about an axis that leaves it in its space.
+fn check_spin(body: &Body, place: impl Fn() -> String, axis: &Line) -> Result<(), Error> {
+    let [x, y, z] = axis.direction;
+    let (fits, accepted) = match body.model {
+        Model::Solid => (
+            axis.direction != [0.0; 3],
+            "a direction of any length but zero",
+        ),
+        Model::Axisymmetric => (
+            [x, z] == [0.0; 2] && y != 0.0 && axis.point[0] == 0.0,
+            "the body's own axis x = 0, for it is axisymmetric",
+        ),
+        _ => (
+            [x, y] == [0.0; 2] && z != 0.0,
+            "the direction of z, for the body is plane",
+        ),
+    };
+    match fits {
+        true => Ok(()),
+        false => Err(Error::NotAccepted {
+            place: format!("{}.axis", place()),
+            found: format!("{:?} through {:?}", axis.direction, axis.point),
+            accepted: accepted.to_owned(),
+        }),
+    }
+}
+
+/// The stress out of the plane is zero in plane stress, shear there in all plane bodies.
+fn check_in_plane(body: &Body, place: impl Fn() -> String, stress: &[f64; 6]) -> Result<(), Error> {
+    let zero: &[usize] = match body.model {
+        Model::Solid => &[],
+        Model::PlaneStress { .. } => &[2, 3, 4],
+        Model::PlaneStrain | Model::Axisymmetric => &[3, 4],
+    };
+    match zero.iter().find(|k| stress[**k] != 0.0) {
+        None => Ok(()),
+        Some(k) => Err(Error::OutOfRange {
+            place: format!("{}.stress[{k}]", place()),
+            value: stress[*k],
+            accepted: "0 out of the plane (order xx, yy, zz, yz, xz, xy)",
+        }),
+    }
+}
+
+/// A load on mass or by heat acts on some material.
+fn check_material(
+    body: &Body,
+    place: impl Fn() -> String,
+    load: &Load,
+    cells: &[usize],
+) -> Result<(), Error> {
+    let acts = |of: fn(&Material) -> f64| {
+        let mut materials = cells.iter().map(|cell| body.material_of_cell[*cell]);
+        materials.any(|material| of(&body.materials[material]) != 0.0)
+    };
+    let (fits, field) = match load {
+        Load::Gravity { .. } | Load::Centrifugal { .. } => (acts(|m| m.density), "density"),
+        Load::Temperature { .. } => (acts(|m| m.expansion), "expansion"),
+        _ => (true, ""),
+    };
+    match fits {
+        true => Ok(()),
+        false => Err(Error::NotAccepted {
+            place: place(),
+            found: format!("materials without `{field}`"),
+            accepted: format!("a `{field}` of a material that the load acts on"),
+        }),
+    }
 }
 
 fn check_facets(

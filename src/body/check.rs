@@ -290,6 +290,7 @@ mod tests {
             place: "supports[0]".to_owned(),
             nodes: vec![0],
             displacement: [None, Some(f64::INFINITY), None],
+            offsets: Vec::new(),
         };
         assert_says(
             kind,

@@ -14,13 +14,14 @@
 //! A facet of an axisymmetric body goes once around the axis: `dA = 2πr ds`.
 
 use std::f64::consts::PI;
+use std::sync::LazyLock;
 
 use nalgebra::Vector3;
 
 use super::kinds::{MOST_FACET_NODES, facet_reference, linear_facet};
 use super::quadrature::positions;
-use super::reference::{Family, Reference};
-use super::{Body, Facet, Mesh, Model};
+use super::reference::{Family, Point, Reference};
+use super::{Body, CellKind, Facet, Mesh, Model};
 
 /// Area, normal and nodal shares of a facet; entries past its last node are zero.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -119,6 +120,24 @@ impl Mesh {
         let x = positions(self, &facet.nodes);
         points(self, facet, &x, around(model))
     }
+
+    /// The same, enough of them for a product of two linear functions.
+    pub(crate) fn fine_facet_points(&self, facet: &Facet, model: Model) -> Vec<FacetPoint> {
+        static THREE: LazyLock<Vec<Point>> = LazyLock::new(|| {
+            let [near, far] = [1.0 / 6.0, 2.0 / 3.0];
+            let corners = [[near, near, 0.0], [far, near, 0.0], [near, far, 0.0]];
+            let point = |at| Point::at(CellKind::Tri3.reference(), at, 1.0 / 6.0);
+            corners.map(point).into()
+        });
+        if self.dimension == 2 || facet.nodes.len() != 3 {
+            return self.facet_points(facet, model);
+        }
+        let x = positions(self, &facet.nodes);
+        match facet_reference(self.dimension, facet.nodes.len()) {
+            Some(reference) => at_points(reference, &THREE, &x, around(model)),
+            None => Vec::new(),
+        }
+    }
 }
 
 impl Body {
@@ -198,23 +217,33 @@ fn points(
     let Some(reference) = facet_reference(mesh.dimension, facet.nodes.len()) else {
         return Vec::new();
     };
+    at_points(reference, &reference.rule, x, length)
+}
+
+fn at_points(
+    reference: &'static Reference,
+    rule: &[Point],
+    x: &[Vector3<f64>],
+    length: impl Fn(Vector3<f64>) -> f64,
+) -> Vec<FacetPoint> {
     let linear = linear_facet(reference);
-    let rule = reference.rule.iter();
-    rule.map(|point| {
-        let [t1, t2, _] = point.tangents(reference.dimension, x);
-        let normal = match reference.dimension {
-            1 => t1.cross(&Vector3::z()),
-            _ => t1.cross(&t2),
-        };
-        let position = point.in_space(x);
-        FacetPoint {
-            position,
-            vector: normal * (point.weight * length(position)),
-            shape: point.shape.clone(),
-            hats: linear.shape(point.position),
-        }
-    })
-    .collect()
+    let points = rule.iter();
+    points
+        .map(|point| {
+            let [t1, t2, _] = point.tangents(reference.dimension, x);
+            let normal = match reference.dimension {
+                1 => t1.cross(&Vector3::z()),
+                _ => t1.cross(&t2),
+            };
+            let position = point.in_space(x);
+            FacetPoint {
+                position,
+                vector: normal * (point.weight * length(position)),
+                shape: point.shape.clone(),
+                hats: linear.shape(point.position),
+            }
+        })
+        .collect()
 }
 
 /// Unit vector, or zero for a facet without area.

@@ -199,6 +199,7 @@ mod tests {
                         place: "pin".to_owned(),
                         nodes: vec![dof / axes],
                         displacement,
+                        offsets: Vec::new(),
                     });
                 }
                 let u = solve(&body);
@@ -236,6 +237,7 @@ mod tests {
             place: "hinge".to_owned(),
             nodes: vec![0],
             displacement: [Some(0.0), Some(0.0), None],
+            offsets: Vec::new(),
         }];
         let (_, chosen) = pins(&body);
         // The hinge is at (0, 0); the far side is x = 2, which moves most along y.

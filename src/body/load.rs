@@ -35,13 +35,32 @@ pub(crate) fn nodal_forces(body: &Body, loads: &[Load]) -> Vec<f64> {
             Load::Traction { facets, traction } => forces.add_traction(facets, *traction),
             Load::BodyForce { cells, density } => forces.add_body_force(cells, *density),
             Load::PointForce { node, force } => forces.add(*node, *force, 1.0),
+            Load::VaryingPressure { facets, pressure } => {
+                forces.add_varying_pressure(facets, pressure);
+            }
+            Load::VaryingTraction { facets, traction } => {
+                forces.add_varying_traction(facets, traction);
+            }
+            Load::Spread { facets, wrench } => forces.add_spread(facets, wrench),
+            Load::Gravity {
+                cells,
+                acceleration,
+            } => forces.add_gravity(cells, *acceleration),
+            Load::Centrifugal {
+                cells,
+                axis,
+                speed_squared,
+            } => forces.add_centrifugal(cells, axis, *speed_squared),
+            // Of all of them together, below.
+            Load::Temperature { .. } | Load::InitialStress { .. } => {}
         }
     }
+    forces.add_prestress(loads);
     forces.values
 }
 
 impl Load {
-    /// The load times a factor.
+    /// The load times a factor; of a spin the forces, not the velocity.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let mut scaled = self.clone();
@@ -49,14 +68,25 @@ impl Load {
             Self::Pressure { pressure, .. } => *pressure *= factor,
             Self::Traction { traction: v, .. }
             | Self::BodyForce { density: v, .. }
-            | Self::PointForce { force: v, .. } => v.iter_mut().for_each(|v| *v *= factor),
+            | Self::PointForce { force: v, .. }
+            | Self::Gravity {
+                acceleration: v, ..
+            } => v.iter_mut().for_each(|v| *v *= factor),
+            Self::VaryingPressure { pressure, .. } => *pressure = pressure.scaled(factor),
+            Self::VaryingTraction { traction, .. } => {
+                *traction = traction.map(|component| component.scaled(factor));
+            }
+            Self::Spread { wrench, .. } => *wrench = wrench.scaled(factor),
+            Self::Centrifugal { speed_squared, .. } => *speed_squared *= factor,
+            Self::Temperature { rise, .. } => rise.iter_mut().for_each(|t| *t *= factor),
+            Self::InitialStress { stress, .. } => stress.iter_mut().for_each(|s| *s *= factor),
         }
         scaled
     }
 }
 
-struct NodalForces<'a> {
-    body: &'a Body,
+pub(super) struct NodalForces<'a> {
+    pub(super) body: &'a Body,
     values: Vec<f64>,
 }
 
@@ -94,7 +124,7 @@ impl NodalForces<'_> {
         }
     }
 
-    fn add(&mut self, node: usize, force: [f64; 3], factor: f64) {
+    pub(super) fn add(&mut self, node: usize, force: [f64; 3], factor: f64) {
         let axes = self.body.mesh.dimension;
         let entries = &mut self.values[axes * node..axes * (node + 1)];
         for (entry, component) in entries.iter_mut().zip(force) {

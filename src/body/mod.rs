@@ -11,6 +11,8 @@
 //! (B9)  η² = ∫ (σ* − σ) : C⁻¹ : (σ* − σ) dV        how wrong the stress is       recovery.rs
 //! (B10) div (N_a u_a) = d_a · u_a                 rings strain around the axis  quadrature.rs
 //! (B11) K_ab of a ring                                                          stiffness.rs
+//! (B12) σ = λ θ I + 2 μ ε + σ₀                    heat and initial stress           prestress.rs
+//! (B13) K_ab += ∫ N_a N_b k dA                    springs to the ground            foundation.rs
 //! ```
 //!
 //! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
@@ -23,6 +25,7 @@
 //! A kind of cell is an entry of the table in `kinds.rs`; its shape functions are those of its
 //! family in `reference.rs`, its points of quadrature in `gauss.rs`.
 
+mod affine;
 mod applied;
 mod axis;
 mod boundary;
@@ -33,18 +36,22 @@ mod entries;
 mod extremes;
 mod facet;
 mod fixing;
+mod foundation;
 mod gauss;
 mod incidence;
+mod inertia;
 mod kinds;
 mod load;
 mod material;
 mod mesh;
+mod prestress;
 mod quadrature;
 mod recovery;
 mod reference;
 mod rigid;
 mod rigid_modes;
 mod sparsity;
+mod spread;
 mod stiffness;
 mod stress;
 mod structured;
@@ -53,6 +60,7 @@ mod support;
 pub(crate) mod tests;
 mod turned;
 
+pub use affine::Affine;
 pub(crate) use axis::Axis;
 pub(crate) use axis::held_by_axis;
 pub(crate) use check::check;
@@ -63,6 +71,9 @@ pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;
 
 pub(crate) use fixing::fixing_dofs;
+pub(crate) use foundation::foundation_forces;
+pub use foundation::{Foundation, Ground};
+pub use inertia::Line;
 pub use kinds::CellKind;
 pub(crate) use load::{load_vector, nodal_forces};
 pub(crate) use material::Lame;
@@ -70,6 +81,7 @@ pub(crate) use mesh::Cell;
 pub use mesh::{Facet, Group, Mesh};
 pub(crate) use recovery::stress_recovery;
 pub(crate) use rigid_modes::{RigidMode, free_modes};
+pub use spread::Wrench;
 pub(crate) use stiffness::stiffness;
 pub(crate) use stress::{cell_stress, nodal_stress, principal, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
@@ -117,6 +129,8 @@ pub struct Support {
     pub nodes: Vec<usize>,
     /// Prescribed displacement per global axis, in metre; `None` leaves the component free.
     pub displacement: [Option<f64>; 3],
+    /// Added to it per node, in metre, as of a rotation; none at all where all nodes move alike.
+    pub offsets: Vec<[f64; 3]>,
 }
 
 /// A given force on the body.
@@ -151,6 +165,57 @@ pub enum Load {
         /// Force, in newton.
         force: [f64; 3],
     },
+    /// Force per area along the inward normal that varies with position, in pascal.
+    VaryingPressure {
+        /// Loaded facets.
+        facets: Vec<Facet>,
+        /// Pressure, in pascal.
+        pressure: Affine,
+    },
+    /// Force per area in global axes that varies with position, in pascal.
+    VaryingTraction {
+        /// Loaded facets.
+        facets: Vec<Facet>,
+        /// Traction per axis, in pascal.
+        traction: [Affine; 3],
+    },
+    /// A force and a moment, spread as tractions.
+    Spread {
+        /// Loaded facets.
+        facets: Vec<Facet>,
+        /// What the tractions sum up to.
+        wrench: Wrench,
+    },
+    /// Weight: force per volume of the density times an acceleration.
+    Gravity {
+        /// Loaded cells.
+        cells: Vec<usize>,
+        /// Acceleration in global axes, in m/s².
+        acceleration: [f64; 3],
+    },
+    /// Force per volume of a steady spin, away from its axis.
+    Centrifugal {
+        /// Loaded cells.
+        cells: Vec<usize>,
+        /// The axis: along z in 2D, the body's own if it is axisymmetric.
+        axis: Line,
+        /// Square of the angular velocity, in 1/s².
+        speed_squared: f64,
+    },
+    /// Heat.
+    Temperature {
+        /// Heated cells.
+        cells: Vec<usize>,
+        /// Temperature above that without stress per node of the mesh, in kelvin.
+        rise: Vec<f64>,
+    },
+    /// Stress that is there without any displacement.
+    InitialStress {
+        /// Stressed cells.
+        cells: Vec<usize>,
+        /// Stress in the order xx, yy, zz, yz, xz, xy, in pascal.
+        stress: [f64; 6],
+    },
 }
 
 /// An elastic body: mesh, material, supports and loads.
@@ -170,6 +235,8 @@ pub struct Body {
     pub supports: Vec<Support>,
     /// Given forces.
     pub loads: Vec<Load>,
+    /// Springs to the ground.
+    pub foundation: Vec<Foundation>,
 }
 
 impl Body {

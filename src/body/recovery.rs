@@ -11,9 +11,10 @@
 //! Next to supports, corners and the ends of the contact it is a measure, not a bound.
 
 use super::dilatation::Dilatation;
+use super::prestress::Prestress;
 use super::quadrature::{mapped, rule};
-use super::stress::{gradient_of, stress_at_nodes, stress_of};
-use super::{Body, Cell, Material, Model, cell_stress};
+use super::stress::{gradient_of, stress_at_nodes, stress_of, sum as plus};
+use super::{Body, Material, Model, cell_stress};
 
 /// What (B9) finds in a body; both squared energy norms, in joule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -30,6 +31,7 @@ pub(crate) struct StressRecovery {
 #[must_use]
 pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
     let centres = cell_stress(body, displacement);
+    let prestress = Prestress::new(body, &body.loads);
     let volumes: Vec<f64> = (0..centres.len())
         .map(|cell| body.mesh.volume(cell))
         .collect();
@@ -39,7 +41,14 @@ pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecove
     let mut sum = StressRecovery::default();
     let same = |a: &usize, b: &usize| body.material_of_cell[*a] == body.material_of_cell[*b];
     for cells in by_material.chunk_by(same) {
-        let at_nodes = |cell: usize| stress_at_nodes(body, displacement, cell, &centres[cell]);
+        let at_nodes = |cell: usize| {
+            stress_at_nodes(
+                body,
+                displacement,
+                prestress.as_ref(),
+                (cell, &centres[cell]),
+            )
+        };
         recover(body, cells, at_nodes, &volumes, &mut recovered);
         for &index in cells {
             let cell = body.mesh.cell(index);
@@ -49,7 +58,7 @@ pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecove
                 && !cell.kind.is_tensor_product()
                 && body.model != Model::Axisymmetric;
             let of_cell = if !constant {
-                by_points(body, displacement, cell, material, &smooth)
+                by_points(body, displacement, prestress.as_ref(), index, &smooth)
             } else {
                 in_simplex(
                     &Compliance(material),
@@ -115,10 +124,12 @@ fn in_simplex(
 fn by_points(
     body: &Body,
     displacement: &[f64],
-    cell: Cell<'_>,
-    material: &Material,
+    prestress: Option<&Prestress<'_>>,
+    index: usize,
     smooth: &[[f64; 6]],
 ) -> StressRecovery {
+    let cell = body.mesh.cell(index);
+    let material = &body.materials[body.material_of_cell[index]];
     let (points, lame) = (rule(cell.kind, body.model), material.lame(body.model));
     let (compliance, all) = (Compliance(material), mapped(body, cell));
     let gradients = all.iter();
@@ -134,7 +145,10 @@ fn by_points(
     let mut sum = StressRecovery::default();
     for ((point, mapped), gradient) in points.iter().zip(&all).zip(&gradients) {
         let theta = if pointwise { gradient.trace() } else { mean };
-        let stress = stress_of(lame, body.model, gradient, theta);
+        let mut stress = stress_of(lame, body.model, gradient, theta);
+        if let Some(prestress) = prestress {
+            stress = plus(stress, prestress.at(index, &point.shape));
+        }
         let mut at_point = [0.0; 6];
         for (shape, of_node) in point.shape.iter().zip(smooth) {
             for (total, component) in at_point.iter_mut().zip(of_node) {

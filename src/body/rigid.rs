@@ -4,10 +4,12 @@
 //! (B7)  u(x) = a + ω × (x − c)      held where a component of u is prescribed
 //! ```
 //!
-//! Each prescribed component is a row in the six numbers `(a, ω L)`, `L` being the size
+//! Each prescribed component, and each direction of a spring, is a row in the six numbers `(a, ω L)`, `L` being the size
 //! of the part and `c` its centre; the rows hold the part if they have full rank. The
 //! rank is found from these rows, by orthogonalising the largest remainder first, and not
 //! from pivots of the stiffness matrix: it does not depend on materials, refinement or units.
+
+use std::collections::HashSet;
 
 use nalgebra::{SVector, Vector3};
 
@@ -102,19 +104,36 @@ impl<'a> Part<'a> {
         let axes = self.body.mesh.dimension;
         let mut rows = Vec::new();
         for &node in nodes {
-            let arm = (Vector3::from(self.body.mesh.nodes[node]) - self.centre) / self.size;
             for axis in 0..axes {
                 if prescribed[axes * node + axis].is_some() {
-                    let direction = Vector3::ith(axis, 1.0);
-                    let moment = arm.cross(&direction);
-                    let mut row = Motion::zeros();
-                    row.fixed_rows_mut::<3>(0).copy_from(&direction);
-                    row.fixed_rows_mut::<3>(3).copy_from(&moment);
-                    rows.push(row);
+                    rows.push(self.row(node, Vector3::ith(axis, 1.0)));
                 }
             }
         }
+        rows.extend(self.spring_rows(nodes));
         rows
+    }
+
+    /// One row per direction that a spring resists at a node of the part.
+    fn spring_rows(&self, nodes: &[usize]) -> Vec<Motion> {
+        if self.body.foundation.is_empty() {
+            return Vec::new();
+        }
+        let of_part: HashSet<usize> = nodes.iter().copied().collect();
+        let springs = self.body.foundation.iter();
+        let held = springs.flat_map(|spring| spring.held_directions(self.body));
+        let held = held.filter(|(node, _)| of_part.contains(node));
+        held.map(|(node, direction)| self.row(node, direction))
+            .collect()
+    }
+
+    /// The displacement of a node along a direction, in the six numbers.
+    fn row(&self, node: usize, direction: Vector3<f64>) -> Motion {
+        let arm = (Vector3::from(self.body.mesh.nodes[node]) - self.centre) / self.size;
+        let mut row = Motion::zeros();
+        row.fixed_rows_mut::<3>(0).copy_from(&direction);
+        row.fixed_rows_mut::<3>(3).copy_from(&arm.cross(&direction));
+        row
     }
 }
 

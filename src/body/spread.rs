@@ -74,9 +74,15 @@ impl Spread {
         if area <= 0.0 {
             return None;
         }
-        let centre = shares.clone().map(|(x, area)| x * area).sum::<Vector3<f64>>() / area;
+        let centre = shares
+            .clone()
+            .map(|(x, area)| x * area)
+            .sum::<Vector3<f64>>()
+            / area;
         let force = Vector3::from(wrench.force);
-        let arm = wrench.at.map_or(Vector3::zeros(), |at| Vector3::from(at) - centre);
+        let arm = wrench
+            .at
+            .map_or(Vector3::zeros(), |at| Vector3::from(at) - centre);
         let moment = Vector3::from(wrench.moment) + arm.cross(&force);
         let inertia: Matrix3<f64> = shares
             .map(|(x, area)| {

@@ -15,6 +15,7 @@
 use nalgebra::Matrix3;
 
 use super::dilatation::{Dilatation, Patches, mean_gradients};
+use super::foundation::add_foundation;
 use super::material::Lame;
 use super::quadrature::{Mapped, mapped};
 use super::sparsity::BlockMatrix;
@@ -46,6 +47,7 @@ pub(crate) fn stiffness(body: &Body) -> sprs::CsMat<f64> {
             }
         }
     }
+    add_foundation(body, &mut matrix);
     matrix.into_rows()
 }
 

@@ -4,7 +4,7 @@
 //! σ = λ θ I + 2 μ ε(u)      ε at the centre of the cell, θ the dilatation that its energy holds
 //! ```
 //!
-//! At nodes of quadratic cells it is extrapolated from where it is most exact.
+//! Heat and initial stress add theirs (B12). At nodes of quadratic cells it is extrapolated from where it is most exact.
 //!
 //! In nearly incompressible cells θ is the mean of (B4) or (B5): with `tr ε` in its
 //! place the pressure would be noise times λ.
@@ -12,6 +12,7 @@
 use nalgebra::{Matrix3, Vector3};
 
 use super::dilatation::{Dilatation, Patches, mean_gradients};
+use super::prestress::Prestress;
 use super::quadrature::{Mapped, mapped, positions};
 use super::reference::{Family, Point};
 use super::{Body, Cell, Lame, Model};
@@ -34,6 +35,7 @@ pub(super) fn for_each_cell(
     mut each: impl FnMut(usize, &Matrix3<f64>, [f64; 6]),
 ) {
     let field = Field { body, displacement };
+    let prestress = Prestress::new(body, &body.loads);
     let patches = Patches::new(body);
     let around_nodes: Vec<f64> = patches
         .iter()
@@ -55,7 +57,14 @@ pub(super) fn for_each_cell(
                 around.map(|patch| around_nodes[patch]).sum::<f64>() / cell.nodes.len() as f64
             }
         };
-        let stress = stress_of(material.lame(body.model), body.model, &gradient, theta);
+        let mut stress = stress_of(material.lame(body.model), body.model, &gradient, theta);
+        if let Some(prestress) = &prestress {
+            let reference = cell.kind.reference();
+            stress = sum(
+                stress,
+                prestress.at(at, &reference.shape(reference.centre())),
+            );
+        }
         each(at, &gradient, stress);
     }
 }
@@ -69,10 +78,11 @@ pub(crate) fn nodal_stress(
     displacement: &[f64],
     cell_stress: &[[f64; 6]],
 ) -> Vec<[f64; 6]> {
+    let prestress = Prestress::new(body, &body.loads);
     let mut sums = vec![([0.0; 6], 0.0); body.mesh.nodes.len()];
     for (index, stress) in cell_stress.iter().enumerate() {
         let volume = body.mesh.volume(index);
-        let of_nodes = stress_at_nodes(body, displacement, index, stress);
+        let of_nodes = stress_at_nodes(body, displacement, prestress.as_ref(), (index, stress));
         for (node, stress) in body.mesh.cell(index).nodes.iter().zip(of_nodes) {
             let (sum, weight) = &mut sums[*node];
             for (total, component) in sum.iter_mut().zip(stress) {
@@ -91,8 +101,8 @@ pub(crate) fn nodal_stress(
 pub(super) fn stress_at_nodes(
     body: &Body,
     displacement: &[f64],
-    index: usize,
-    centre: &[f64; 6],
+    prestress: Option<&Prestress<'_>>,
+    (index, centre): (usize, &[f64; 6]),
 ) -> Vec<[f64; 6]> {
     let cell = body.mesh.cell(index);
     if cell.kind.is_linear() {
@@ -113,8 +123,16 @@ pub(super) fn stress_at_nodes(
         std::array::from_fn(|axis| middle[axis] + by * (at[axis] - middle[axis]))
     };
     let points = linear.nodes.iter().map(|corner| {
-        let gradient = field.gradient(cell, scaled(corner, inward));
-        stress_of(lame, body.model, &gradient, gradient.trace())
+        let at = scaled(corner, inward);
+        let gradient = field.gradient(cell, at);
+        let stress = stress_of(lame, body.model, &gradient, gradient.trace());
+        match prestress {
+            Some(prestress) => sum(
+                stress,
+                prestress.at(index, &cell.kind.reference().shape(at)),
+            ),
+            None => stress,
+        }
     });
     let points: Vec<[f64; 6]> = points.collect();
     let nodes = cell.kind.reference().nodes.iter();
@@ -131,6 +149,11 @@ pub(super) fn stress_of(lame: Lame, model: Model, gradient: &Matrix3<f64>, theta
     let [xx, yy, zz] = [strain[(0, 0)], strain[(1, 1)], strain[(2, 2)]];
     let [yz, xz, xy] = [strain[(1, 2)], strain[(0, 2)], strain[(0, 1)]];
     lame.stress(model, [xx, yy, zz, yz, xz, xy], theta)
+}
+
+/// Two stresses together, in pascal.
+pub(super) fn sum(a: [f64; 6], b: [f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|k| a[k] + b[k])
 }
 
 /// Von Mises' equivalent stress `√(3/2 s : s)`, in pascal, of a stress in the order

@@ -42,7 +42,7 @@ pub(crate) fn prescribed_by(
     let mut holder: Vec<Option<usize>> = vec![None; axes * nodes];
     let mut prescribed = vec![None; axes * nodes];
     for (index, support) in supports.iter().enumerate() {
-        for &node in &support.nodes {
+        for (at, &node) in support.nodes.iter().enumerate() {
             if node >= nodes {
                 return Err(Error::UnknownIndex {
                     place: support.place.clone(),
@@ -51,8 +51,8 @@ pub(crate) fn prescribed_by(
                     count: nodes,
                 });
             }
-            for (axis, value) in support.displacement.iter().enumerate().take(axes) {
-                let Some(value) = *value else { continue };
+            for (axis, value) in support.given(at).into_iter().enumerate().take(axes) {
+                let Some(value) = value else { continue };
                 let unknown = axes * node + axis;
                 match (prescribed[unknown], holder[unknown]) {
                     (Some(before), Some(first)) if before != value => {
@@ -77,8 +77,18 @@ impl Support {
     pub fn scaled(&self, factor: f64) -> Self {
         Self {
             displacement: self.displacement.map(|u| u.map(|u| factor * u)),
+            offsets: self.offsets.iter().map(|u| u.map(|u| factor * u)).collect(),
             ..self.clone()
         }
+    }
+
+    /// What is prescribed at the node of this number in the list, per axis, in metre.
+    #[must_use]
+    pub fn given(&self, at: usize) -> [Option<f64>; 3] {
+        let Some(offset) = self.offsets.get(at) else {
+            return self.displacement;
+        };
+        [0, 1, 2].map(|axis| self.displacement[axis].map(|u| u + offset[axis]))
     }
 }
 
@@ -102,6 +112,7 @@ mod tests {
             place: place.to_owned(),
             nodes: nodes.to_vec(),
             displacement,
+            offsets: Vec::new(),
         }
     }
 

@@ -247,6 +247,7 @@ mod tests {
             place: "supports[0]".to_owned(),
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(across), Some(0.0)],
+            offsets: Vec::new(),
         });
         body.loads.push(Load::Pressure {
             facets: facets(&body.mesh, "top"),
@@ -443,6 +444,7 @@ mod tests {
                 place: "supports".to_owned(),
                 nodes,
                 displacement,
+                offsets: Vec::new(),
             });
         };
         hold((8..81).step_by(9).collect(), [Some(0.0), None, None]);
@@ -548,6 +550,7 @@ mod tests {
             place: "supports[0]".to_owned(),
             nodes: vec![0, 3],
             displacement: [Some(0.0); 3],
+            offsets: Vec::new(),
         });
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),

@@ -134,6 +134,7 @@ mod tests {
             place: "supports[0]".to_owned(),
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(moved), Some(0.0)],
+            offsets: Vec::new(),
         });
         let facets_of = |side| facets(&body.mesh, side);
         let (top, bottom) = (facets_of("top"), facets_of("bottom"));

@@ -12,7 +12,8 @@ use crate::error::Error;
 use crate::problem::Floating;
 
 /// Contacts whose two sides move alike, as those between two faces of one part, feel nothing of a mode but the
-/// round-off of the mortar's weights: displacements below this part of the mode's largest.
+/// round-off of the mortar's weights: displacements below this part of the mode's largest, and works below
+/// this part of what cancels.
 const ROUND_OFF: f64 = 1e-13;
 
 /// Bodies, their contact surface and their free modes, without any stiffness.
@@ -156,7 +157,8 @@ fn moved(contact: &ContactNode, index: usize, mode: &[f64], axes: usize) -> [f64
     moved
 }
 
-/// e of (C3): work of nodal forces per body on the free modes, in newton.
+/// e of (C3): work of nodal forces per body on the free modes, in newton. Forces that are in equilibrium
+/// with each other, as those of heat are, leave no round-off behind.
 pub(super) fn mode_loads(
     groundings: &[impl Borrow<Grounding>],
     forces: &[impl AsRef<[f64]>],
@@ -165,8 +167,14 @@ pub(super) fn mode_loads(
     of_bodies
         .flat_map(|(grounding, forces)| {
             grounding.modes.col_iter().map(move |mode| {
-                let pairs = mode.iter().zip(forces.as_ref());
-                pairs.map(|(r, f)| r * f).sum()
+                let works = mode.iter().zip(forces.as_ref()).map(|(r, f)| r * f);
+                let (sum, size) =
+                    works.fold((0.0, 0.0), |(sum, size), w| (sum + w, size + w.abs()));
+                if f64::abs(sum) <= ROUND_OFF * size {
+                    0.0
+                } else {
+                    sum
+                }
             })
         })
         .collect()

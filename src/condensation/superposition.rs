@@ -153,11 +153,11 @@ fn displacements_of(body: &Body, moves: impl Fn(usize) -> bool) -> Vec<Option<f6
     let axes = body.mesh.dimension;
     let mut prescribed = vec![None; axes * body.mesh.nodes.len()];
     for (index, support) in body.supports.iter().enumerate() {
-        for node in &support.nodes {
+        for (at, node) in support.nodes.iter().enumerate() {
             let of_node = &mut prescribed[axes * node..axes * (node + 1)];
-            for (held, value) in of_node.iter_mut().zip(&support.displacement) {
+            for (held, value) in of_node.iter_mut().zip(support.given(at)) {
                 if let (None, Some(value)) = (&held, value) {
-                    *held = Some(if moves(index) { *value } else { 0.0 });
+                    *held = Some(if moves(index) { value } else { 0.0 });
                 }
             }
         }

@@ -203,6 +203,7 @@ mod tests {
             place: "supports[0]".to_owned(),
             nodes: nodes.to_vec(),
             displacement,
+            offsets: Vec::new(),
         });
     }
 

@@ -92,6 +92,7 @@ impl Stock<'_, '_> {
             materials: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
+            foundation: Vec::new(),
         };
         let mut of_material: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for at in &cells {

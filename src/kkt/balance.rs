@@ -5,13 +5,14 @@
 //!       Σ f + Σ c + Σ s = 0,   Σ x × (f + c + s) = 0
 //! ```
 //!
-//! Where a displacement is free, `s` must vanish: what is left of it is the residual. On an
+//! K holds the springs of a foundation, whose forces count as of supports. Where a displacement is free, `s` must vanish: what is left of it is the residual. On an
 //! axisymmetric body nodal forces are those of whole rings: across the axis they are no resultant,
 //! and only the sums along it have to vanish.
 
 use super::body_state::BodyState;
 use super::certificate::{Defect, Worst, length};
 use super::resultant::{Resultant, nodal_lengths};
+use crate::body;
 use crate::body::Model;
 use crate::error::Error;
 
@@ -47,7 +48,7 @@ pub struct Balance {
     pub loads: Resultant,
     /// Contact forces on the body.
     pub contact: Resultant,
-    /// Support reactions on the body.
+    /// Support reactions on the body, and forces of the springs that hold it (B13).
     pub supports: Resultant,
     /// Length of the sum of all forces.
     pub force_defect: Defect,
@@ -80,6 +81,11 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     let loose = keep(&support, |k| state.prescribed[k].is_none());
 
     let (nodes, dimension) = (&state.body.mesh.nodes, state.dimension());
+    // The ground answers springs as it answers supports.
+    let held = match body::foundation_forces(state.body, state.displacement) {
+        Some(springs) => held.iter().zip(springs).map(|(s, k)| s + k).collect(),
+        None => held,
+    };
     let parts = [state.load, &contact, &held];
     let [loads, contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
     let sizes = parts.iter().flat_map(|part| nodal_lengths(part, dimension));
@@ -188,6 +194,7 @@ mod tests {
                     material_of_cell: vec![],
                     supports: vec![],
                     loads: vec![],
+                    foundation: vec![],
                 },
                 stiffness: entries.to_csr(),
                 surface: ContactSurface {

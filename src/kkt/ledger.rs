@@ -16,6 +16,9 @@
 //! A fit is work that somebody does once: bodies that overlap before loading are forced apart by the first
 //! step, as if the other side came in by the overlap.
 //!
+//! Heat and initial stress count as loads, by their nodal forces (B12); `½ u · K u`, which holds the springs of a
+//! foundation, then differs from the energy of the stresses by what the loads alone tell.
+//!
 //! As K is symmetric the trapezoidal rule gives Δ elastic exactly, so the closure is (K10) up to
 //! round-off: what the two ends of a step do not tell of the way between them. It vanishes where
 //! loads grow in proportion and every contact keeps its state and direction; it is left by

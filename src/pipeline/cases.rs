@@ -304,6 +304,8 @@ impl Stated {
         let slip = vec![0.0; setup.condensed.problem().unknowns()];
         let condensed = &mut setup.condensed;
         condensed.act(&self.under, &factors, &obstacles, &slip)?;
+        let driven: Vec<Driven> = self.drives.iter().filter_map(Drive::driven).collect();
+        setup.stress_under(&self.setup.bodies, &driven, &factors);
         setup.acting = Acting {
             obstacles,
             openings: self

@@ -86,6 +86,10 @@ fn limits(title: &str, bodies: &[Body], pairs: &[ContactPair]) -> Result<Limits,
     let mut loads = Vec::new();
     for (index, body) in bodies.iter().enumerate() {
         for (number, load) in body.loads.iter().enumerate() {
+            // Heat and initial stress are in equilibrium with themselves.
+            if load.stresses() {
+                continue;
+            }
             let growing = case.alone(index, load);
             if growing.iter().any(|e| *e != 0.0) {
                 let fixed: Vec<f64> = total.iter().zip(&growing).map(|(t, g)| t - g).collect();
@@ -113,6 +117,13 @@ fn kind(load: &Load) -> &'static str {
         Load::Traction { .. } => "traction",
         Load::BodyForce { .. } => "body_force",
         Load::PointForce { .. } => "point_force",
+        Load::VaryingPressure { .. } => "pressure",
+        Load::VaryingTraction { .. } => "traction",
+        Load::Spread { .. } => "force",
+        Load::Gravity { .. } => "gravity",
+        Load::Centrifugal { .. } => "centrifugal",
+        Load::Temperature { .. } => "temperature",
+        Load::InitialStress { .. } => "initial_stress",
     }
 }
 

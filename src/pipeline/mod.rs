@@ -17,7 +17,7 @@ use std::time::Instant;
 
 use crate::alternation::{Earlier, Outcome, Settings, Status};
 use crate::body::{Body, Extremes};
-use crate::condensation::Condensed;
+use crate::condensation::{Condensed, Driven};
 use crate::contact::{ContactPair, Opposite};
 use crate::error::Error;
 use crate::kkt::{PairFit, SceneGeometry};
@@ -125,6 +125,27 @@ impl Setup {
             step: None,
             extremes: OnceLock::new(),
         })
+    }
+
+    /// Puts heat and initial stress under factors, as the stress of the bodies knows them; nothing is done
+    /// where no driven load has any. `stated` are the bodies at factors of one.
+    fn stress_under(&mut self, stated: &Arc<[Body]>, driven: &[Driven], factors: &[f64]) {
+        let acting = driven.iter().zip(factors).filter_map(|(driven, factor)| {
+            let Driven::Load { body, index } = *driven else {
+                return None;
+            };
+            let load = stated.get(body)?.loads.get(index)?;
+            load.stresses().then(|| (body, index, load.scaled(*factor)))
+        });
+        let acting: Vec<_> = acting.collect();
+        if acting.is_empty() {
+            return;
+        }
+        let mut bodies = stated.to_vec();
+        for (body, index, load) in acting {
+            bodies[body].loads[index] = load;
+        }
+        self.bodies = bodies.into();
     }
 
     fn body_states<'a>(

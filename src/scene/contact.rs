@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::field::{finite, is_zero};
 use super::selection::{norm, vector};
 use super::{selection, spelling};
 use crate::body::Body;
@@ -36,12 +37,6 @@ pub struct SceneContact {
     /// negative; 0 when left out. Meshes may be drawn touching.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub gap: f64,
-}
-
-// The signature is serde's.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
@@ -149,12 +144,7 @@ impl SceneContact {
                 accepted: "0 <= friction < infinity",
             });
         }
-        if !self.gap.is_finite() {
-            return Err(Error::NotFinite {
-                place: format!("{place}.gap"),
-                value: self.gap,
-            });
-        }
+        finite(format!("{place}.gap"), self.gap)?;
         let mesh = &bodies[body].mesh;
         let opposite = match (&self.obstacle, &self.against) {
             (Some(obstacle), None) => {

@@ -4,7 +4,8 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::{MeshSource, SceneLoad, SceneSupport, selection};
+use super::field::is_zero;
+use super::{MeshSource, SceneFoundation, SceneLoad, SceneSupport, selection};
 use crate::body;
 use crate::body::{Body, Material, Mesh, Model};
 use crate::error::Error;
@@ -28,9 +29,12 @@ pub struct SceneBody {
     /// Where its displacement is given.
     #[serde(default)]
     pub supports: Vec<SceneSupport>,
-    /// Given forces.
+    /// Given forces, heat and initial stress.
     #[serde(default)]
     pub loads: Vec<SceneLoad>,
+    /// Springs that hold it to the ground.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub foundation: Vec<SceneFoundation>,
 }
 
 fn unnamed() -> String {
@@ -130,6 +134,7 @@ impl SceneBody {
             materials: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
+            foundation: Vec::new(),
         }
     }
 
@@ -161,6 +166,13 @@ impl SceneBody {
         self
     }
 
+    /// The body with springs to the ground.
+    #[must_use]
+    pub fn with_foundation(mut self, foundation: SceneFoundation) -> Self {
+        self.foundation.push(foundation);
+        self
+    }
+
     /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
     /// `folder`. What was changed is added to `notes`.
     pub(super) fn resolve(
@@ -183,10 +195,13 @@ impl SceneBody {
         let model = self.resolve_model(place, mesh.dimension)?;
         let (materials, material_of_cell) = self.resolve_materials(place, &mesh)?;
         let supports = (self.supports.iter().enumerate())
-            .map(|(at, support)| support.resolve(format!("{place}.supports[{at}]"), &mesh))
+            .map(|(at, support)| support.resolve(format!("{place}.supports[{at}]"), &mesh, model))
             .collect::<Result<_, _>>()?;
         let loads = (self.loads.iter().enumerate())
-            .map(|(at, load)| load.resolve(&format!("{place}.loads[{at}]"), &mesh))
+            .map(|(at, load)| load.resolve(&format!("{place}.loads[{at}]"), folder, &mesh, model))
+            .collect::<Result<_, _>>()?;
+        let foundation = (self.foundation.iter().enumerate())
+            .map(|(at, springs)| springs.resolve(format!("{place}.foundation[{at}]"), &mesh))
             .collect::<Result<_, _>>()?;
         let body = Body {
             name: self.name.clone(),
@@ -196,6 +211,7 @@ impl SceneBody {
             material_of_cell,
             supports,
             loads,
+            foundation,
         };
         body::check(&body)?;
         body::prescribed(&body)?;

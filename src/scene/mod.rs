@@ -1,9 +1,9 @@
 //! SCENE: what the user writes.
 //!
 //! ```text
-//! bodies    mesh, model, materials, supports, loads
-//! contacts  group of surface facets, rigid obstacle, friction
-//! steps     instants, factors of loads and supports, motions of obstacles
+//! bodies    mesh, model, materials, supports, loads, springs
+//! contacts  group of surface facets, rigid obstacle, friction, gap
+//! steps     instants, factors of loads and supports, motions of obstacles, gaps
 //! settings  tolerance, max_sweeps, time_limit
 //! ```
 //!
@@ -15,11 +15,16 @@
 mod bare;
 mod contact;
 mod elastic_body;
+mod field;
+mod foundation;
 mod half_space;
+mod heat;
 mod height_map;
 mod json;
 mod load;
+mod load_keys;
 mod mesh_source;
+mod nodal_table;
 mod remeshed;
 mod saved_state;
 mod selection;
@@ -41,10 +46,13 @@ use crate::error::Error;
 pub use bare::BareProblem;
 pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
+pub use field::{SceneAffine, SceneAffineVector, SceneSpin, SceneTurn};
+pub use foundation::SceneFoundation;
 pub use half_space::{
     HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
     SceneSurfaceShape, SceneSurroundings,
 };
+pub use heat::{NodalFile, SceneTemperature};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
 pub use saved_state::SavedState;
@@ -481,6 +489,7 @@ mod tests {
                 materials: vec![material("soft", 1.0), material("stiff", 2.0)],
                 supports: vec![],
                 loads: vec![],
+                foundation: vec![],
             }],
             contacts: vec![SceneContact {
                 group: "bottom".into(),
@@ -551,7 +560,14 @@ mod tests {
                 "group pressure",
                 "group traction",
                 "body_force group",
-                "at point_force"
+                "at point_force",
+                "group pressure",
+                "group traction",
+                "at force group moment",
+                "gravity group",
+                "centrifugal group",
+                "group temperature",
+                "group initial_stress"
             ]
         );
         assert!(

@@ -5,7 +5,7 @@ use crate::body::{Facet, Group, Mesh};
 use crate::error::{Error, check_finite, check_length};
 
 /// Farthest that a node may lie from the position that selects it, relative to the mesh's size.
-const AT_NODE: f64 = 1e-6;
+pub(super) const AT_NODE: f64 = 1e-6;
 
 /// The group of this name, which must not be empty.
 pub(super) fn group<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a Group, Error> {
@@ -137,7 +137,7 @@ pub(super) fn node_at(mesh: &Mesh, place: &str, position: &[f64]) -> Result<usiz
 }
 
 /// Diagonal of the box around all nodes, in metre.
-fn size(mesh: &Mesh) -> f64 {
+pub(super) fn size(mesh: &Mesh) -> f64 {
     norm([0, 1, 2].map(|axis| {
         let along = mesh.nodes.iter().map(|node| node[axis]);
         along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)

@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
+use super::field::SceneTurn;
 use super::selection;
-use crate::body::{Mesh, Support};
+use crate::body::{Mesh, Model, Support};
 use crate::error::{Error, check_length};
 
 /// Nodes whose displacement is given; `null` leaves a component free.
@@ -18,6 +19,15 @@ pub enum SceneSupport {
         group: String,
         /// One entry per axis, in the unit of length; `null` leaves the component free.
         displacement: Vec<Option<f64>>,
+    },
+    /// All nodes of a group, which moves as a rigid body: by `displacement`, and turned about an axis.
+    Turned {
+        /// Group of cells, facets, edges or points.
+        group: String,
+        /// One entry per axis, in the unit of length; `null` leaves the component free.
+        displacement: Vec<Option<f64>>,
+        /// A small rotation, of the components that `displacement` gives.
+        turn: SceneTurn,
     },
     /// One node.
     At {
@@ -35,20 +45,29 @@ struct Keys {
     group: Option<String>,
     at: Option<Vec<f64>>,
     displacement: Vec<Option<f64>>,
+    turn: Option<SceneTurn>,
 }
 
 impl<'de> Deserialize<'de> for SceneSupport {
     fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
         let keys = Keys::deserialize(source)?;
         let displacement = keys.displacement;
-        match (keys.group, keys.at) {
-            (Some(group), None) => Ok(Self::Group {
+        match (keys.group, keys.at, keys.turn) {
+            (Some(group), None, None) => Ok(Self::Group {
                 group,
                 displacement,
             }),
-            (None, Some(at)) => Ok(Self::At { at, displacement }),
-            _ => Err(de::Error::custom(
+            (Some(group), None, Some(turn)) => Ok(Self::Turned {
+                group,
+                displacement,
+                turn,
+            }),
+            (None, Some(at), None) => Ok(Self::At { at, displacement }),
+            (_, _, None) => Err(de::Error::custom(
                 "expected exactly one of `group` and `at`, beside `displacement`",
+            )),
+            (_, _, Some(_)) => Err(de::Error::custom(
+                "expected `group` and `displacement` beside `turn`",
             )),
         }
     }
@@ -64,12 +83,33 @@ impl SceneSupport {
         }
     }
 
+    /// A rigid motion of a group: a displacement, one entry per axis, and a small rotation of the components
+    /// that it gives.
+    #[must_use]
+    pub fn turned(group: &str, displacement: &[Option<f64>], turn: SceneTurn) -> Self {
+        Self::Turned {
+            group: group.to_owned(),
+            displacement: displacement.to_vec(),
+            turn,
+        }
+    }
+
     /// The support in the terms of mechanics.
-    pub(super) fn resolve(&self, place: String, mesh: &Mesh) -> Result<Support, Error> {
+    pub(super) fn resolve(
+        &self,
+        place: String,
+        mesh: &Mesh,
+        model: Model,
+    ) -> Result<Support, Error> {
         let (nodes, stated) = match self {
             Self::Group {
                 group,
                 displacement,
+            }
+            | Self::Turned {
+                group,
+                displacement,
+                ..
             } => {
                 let place = format!("{place}.group");
                 (selection::nodes(mesh, &place, group)?, displacement)
@@ -101,10 +141,26 @@ impl SceneSupport {
                 accepted: "at least one number".to_owned(),
             });
         }
+        let offsets = match self {
+            Self::Turned { turn, .. } => {
+                let place = format!("{place}.turn");
+                if model == Model::Axisymmetric {
+                    return Err(Error::NotAccepted {
+                        place,
+                        found: "a rotation".to_owned(),
+                        accepted: "none, for an axisymmetric body turns about no axis".to_owned(),
+                    });
+                }
+                let positions = nodes.iter().map(|node| mesh.nodes[*node]);
+                turn.resolve(&place, mesh.dimension, positions)?
+            }
+            _ => Vec::new(),
+        };
         Ok(Support {
             place,
             nodes,
             displacement,
+            offsets,
         })
     }
 }

@@ -26,6 +26,7 @@ pub(super) fn body(name: &str, mesh: Mesh, material: Elastic) -> SceneBody {
         materials: vec![SceneMaterial::new(material.young, material.poisson)],
         supports: Vec::new(),
         loads: Vec::new(),
+        foundation: Vec::new(),
     }
 }
 

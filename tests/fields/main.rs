@@ -1,5 +1,11 @@
 //! What loads, fields, gaps and supports of a scene do, beside closed forms.
 
+#![allow(clippy::unwrap_used)]
+
 mod gaps;
+mod heat;
+mod loads;
+mod springs;
 #[path = "../stacks/mod.rs"]
 mod stacks;
+mod turns;

@@ -38,6 +38,7 @@ fn body(name: &str, mesh: Mesh) -> Body {
         material_of_cell: vec![],
         supports: vec![],
         loads: vec![],
+        foundation: vec![],
     }
 }
 

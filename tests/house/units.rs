@@ -65,7 +65,8 @@ impl Scales {
         }
         for support in &mut body.supports {
             let displacement = match support {
-                SceneSupport::Group { displacement, .. } => displacement,
+                SceneSupport::Group { displacement, .. }
+                | SceneSupport::Turned { displacement, .. } => displacement,
                 SceneSupport::At { at, displacement } => {
                     lengthen(at);
                     displacement

@@ -27,6 +27,7 @@ pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBod
         materials: vec![SceneMaterial::new(young, poisson)],
         supports: Vec::new(),
         loads: Vec::new(),
+        foundation: Vec::new(),
     }
 }
 

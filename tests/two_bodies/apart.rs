@@ -17,6 +17,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             place: place.to_owned(),
             nodes: nodes.map(|(node, _)| node).collect(),
             displacement,
+            offsets: Vec::new(),
         }
     };
     let supports = vec![
@@ -37,6 +38,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             facets: top,
             pressure,
         }],
+        foundation: vec![],
     }
 }
 

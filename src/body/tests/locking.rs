@@ -141,6 +141,7 @@ fn beam(kind: CellKind, poisson: f64) -> Body {
                 place,
                 nodes: vec![node],
                 displacement,
+                offsets: Vec::new(),
             });
         }
     }

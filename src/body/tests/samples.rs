@@ -32,6 +32,7 @@ pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
         materials: vec![Material::new(10.0, poisson)],
         supports: Vec::new(),
         loads: Vec::new(),
+        foundation: vec![],
     }
 }
 
@@ -45,6 +46,7 @@ pub(crate) fn support(nodes: &[usize], axes: &[usize]) -> Support {
         place: "support".to_owned(),
         nodes: nodes.to_vec(),
         displacement,
+        offsets: Vec::new(),
     }
 }
 
@@ -101,6 +103,7 @@ pub(crate) fn hold(body: &mut Body, name: &str, axis: usize) {
         place: name.to_owned(),
         nodes: nodes.collect(),
         displacement,
+        offsets: Vec::new(),
     });
 }
 

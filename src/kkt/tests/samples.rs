@@ -74,5 +74,6 @@ fn body(name: &str, nodes: Vec<[f64; 3]>) -> Body {
         material_of_cell: Vec::new(),
         supports: Vec::new(),
         loads: Vec::new(),
+        foundation: vec![],
     }
 }

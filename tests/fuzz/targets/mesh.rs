@@ -55,6 +55,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
             supports: if choice % 2 == 0 { vec![hold] } else { vec![] },
             loads: vec![load],
             mesh: MeshSource::Given(mesh),
+ foundation: Vec::new(),
         }],
         contacts: vec![SceneContact {
             group: any(facets.first()),
