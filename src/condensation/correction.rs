@@ -154,6 +154,7 @@ mod tests {
             place: "supports[0]".to_owned(),
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(0.01), Some(-0.02)],
+            offsets: Vec::new(),
         });
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
@@ -165,6 +166,7 @@ mod tests {
             }),
             friction: 0.3,
             rounded: true,
+            gap: 0.0,
         };
         Condensed::new(&[body], &[pair]).unwrap()
     }

@@ -94,12 +94,13 @@ impl Assembly {
                 material_of_cell: vec![0; mesh.cell_count()],
                 mesh,
                 model,
-                materials: vec![Material {
-                    young: 10_f64.powf(random.between(0.0, 6.0)),
-                    poisson: random.between(0.0, 0.4),
-                }],
+                materials: vec![Material::new(
+                    10_f64.powf(random.between(0.0, 6.0)),
+                    random.between(0.0, 0.4),
+                )],
                 supports: Vec::new(),
                 loads: Vec::new(),
+                foundation: Vec::new(),
             });
             let apart = match touching {
                 true => 0.0,
@@ -141,6 +142,7 @@ impl Assembly {
                 place: "support".to_owned(),
                 nodes: nodes(&body.mesh, group),
                 displacement,
+                offsets: Vec::new(),
             });
         }
         for body in &mut self.bodies {
@@ -315,6 +317,7 @@ fn pair(bodies: &[Body], level: usize, random: &mut Random) -> ContactPair {
         },
         friction,
         rounded: true,
+        gap: 0.0,
     }
 }
 

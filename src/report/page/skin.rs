@@ -179,6 +179,7 @@ mod tests {
             material_of_cell: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
+            foundation: Vec::new(),
         })
     }
 
