@@ -92,8 +92,8 @@ fn check_values(body: &Body, place: impl Fn() -> String, load: &Load) -> Result<
         }
         Load::VaryingTraction { traction, .. } => {
             vector("traction", traction.map(|component| component.value))?;
-            let gradients = traction.iter().map(|component| component.gradient);
-            gradients.map(|g| vector("traction.gradient", g)).collect()
+            let mut gradients = traction.iter().map(|component| component.gradient);
+            gradients.try_for_each(|g| vector("traction.gradient", g))
         }
         Load::Spread { wrench, .. } => check_wrench(body, place, wrench),
         Load::Gravity { acceleration, .. } => vector("acceleration", *acceleration),

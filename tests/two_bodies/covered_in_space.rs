@@ -130,10 +130,6 @@ fn blocks_that_end_on_each_other_press_alike_from_either_side() {
             let [first, second] =
                 [true, false].map(|first| crossing(cell, cells, first, shift).totals);
             let place = format!("{cell} {cells:?} {shift:?}");
-            println!(
-                "{place}: force {} {} peak {} {}",
-                first.normal, second.normal, first.peak_pressure, second.peak_pressure
-            );
             close(first.normal, second.normal, 0.03, &place);
             close(first.peak_pressure, second.peak_pressure, 0.5, &place);
         }
@@ -205,7 +201,6 @@ fn a_cap_over_coarse_flat_facets_touches_only_where_it_is_pressed() {
     // Hertz: 4/3 E*/2 √R δ^(3/2) = 1376 N; the block's facets are eleven times the radius of the contact.
     for cap_first in [true, false] {
         let [coarse, fine] = [5.0, 1.25].map(|size| cap(0.0, cap_first, 0.02, size).totals.normal);
-        println!("cap first {cap_first}: {coarse} {fine}");
         close(coarse, 1376.0, 0.7, "coarse");
         close(fine, 1376.0, 0.3, "fine");
     }
@@ -318,7 +313,6 @@ fn a_ball_of_straight_facets_fits_a_shell_as_a_sphere_would() {
         let force = report.totals.normal / (4.0 * PI * RADII[1] * RADII[1] * lame()) - 1.0;
         let mean = report.totals.normal / report.totals.contact_area;
         let peak = report.totals.peak_pressure / mean;
-        println!("ball first {ball_first}: force {force:+.4} peak {peak:.3}");
         assert!(
             force.abs() < 0.025 && peak < 1.05,
             "{ball_first} {force} {peak}"

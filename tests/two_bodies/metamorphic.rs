@@ -324,7 +324,7 @@ fn pair(bodies: &[Body], level: usize, random: &mut Random) -> ContactPair {
 fn facets(mesh: &Mesh, group: &str) -> Vec<Facet> {
     match &mesh.groups[group] {
         Group::Facets(facets) => facets.clone(),
-        other => panic!("{other:?}"),
+        other => unreachable!("{other:?}"),
     }
 }
 

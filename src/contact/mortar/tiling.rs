@@ -128,13 +128,9 @@ impl<'a> Tiling<'a> {
             let (area, centre) = middle(cover);
             self.is_plain(*tile) || self.spread(*tile, area, centre).is_some()
         };
-        let (mut done, mut open) = (vec![false; self.tiles.len()], Vec::new());
-        for tile in 0..self.tiles.len() {
-            done[tile] = carries(&tile);
-            if !done[tile] {
-                open.push(tile);
-            }
-        }
+        let tiles = 0..self.tiles.len();
+        let mut done: Vec<bool> = tiles.clone().map(|tile| carries(&tile)).collect();
+        let mut open: Vec<usize> = tiles.filter(|tile| !done[*tile]).collect();
         if open.is_empty() {
             return;
         }
@@ -248,7 +244,7 @@ impl<'a> Tiling<'a> {
         let (mut sum, mut area) = (0.0, 0.0);
         for &tile in tiles {
             let own = &self.tiles[tile];
-            let values = self.at_corners(tile, tiles[0]).map(|at| of(at));
+            let values = self.at_corners(tile, tiles[0]).map(of);
             let values: Vec<f64> = values.collect();
             for polygon in &own.polygons {
                 integrate(polygon, QUADRATIC, |at, share| {

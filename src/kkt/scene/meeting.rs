@@ -147,7 +147,7 @@ impl Sample {
 /// A place and the obstacle in front of it.
 fn face(place: Place, obstacle: &Obstacle) -> Option<Sample> {
     let (distance, towards) = see(obstacle, place.position)?;
-    (place.normal.dot(&towards) > FACING).then(|| Sample {
+    (place.normal.dot(&towards) > FACING).then_some(Sample {
         places: [Some(place), None],
         towards,
         distance,
