@@ -3,9 +3,10 @@
 //!
 //! Chromium is looked for under its usual names, or where `CHROMIUM` says.
 
-use std::fs;
+use std::fs::{self, File};
 use std::path::Path;
-use std::process::Command;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use dpana::Scene;
 use dpana::body::{CellKind, Mesh};
@@ -27,37 +28,55 @@ fn looked_at(page: &Path, expected: &Value) -> Value {
         format!("{text}<script>const EXPECTED = {expected};\n{CHECKS}</script>"),
     )
     .unwrap();
-    let profile = page.with_extension("profile");
-    let output = Command::new(chromium())
-        .args([
-            "--headless",
-            "--no-sandbox",
-            "--use-gl=angle",
-            "--use-angle=swiftshader",
-        ])
-        .args([
-            "--enable-unsafe-swiftshader",
-            "--window-size=1280,800",
-            "--dump-dom",
-        ])
-        .arg(format!("--user-data-dir={}", profile.display()))
-        .arg(format!("file://{}", checked.display()))
-        .output()
-        .unwrap();
-    let shown = String::from_utf8_lossy(&output.stdout).into_owned();
+    let shown = printed(&checked);
     let found = shown.split("<pre id=\"checks\">").nth(1);
     let found = found.and_then(|rest| rest.split("</pre>").next());
     let Some(found) = found else {
-        unreachable!(
-            "the checks ran: {}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        unreachable!("the checks ran: {shown}");
     };
     let found = found
         .replace("&lt;", "<")
         .replace("&gt;", ">")
         .replace("&amp;", "&");
     serde_json::from_str(&found).unwrap()
+}
+
+/// The page as the browser prints it, within two minutes.
+fn printed(page: &Path) -> String {
+    let into = page.with_extension("printed");
+    let mut browser = Command::new(chromium())
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--no-first-run",
+            "--disable-extensions",
+        ])
+        .args(["--disable-background-networking", "--password-store=basic"])
+        .args([
+            "--use-gl=angle",
+            "--use-angle=swiftshader",
+            "--enable-unsafe-swiftshader",
+        ])
+        .args(["--window-size=1280,800", "--dump-dom"])
+        .arg(format!(
+            "--user-data-dir={}",
+            page.with_extension("profile").display()
+        ))
+        .arg(format!("file://{}", page.display()))
+        .stdout(File::create(&into).unwrap())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let start = Instant::now();
+    while browser.try_wait().unwrap().is_none() {
+        if start.elapsed() > Duration::from_secs(120) {
+            browser.kill().unwrap();
+            browser.wait().unwrap();
+            unreachable!("{} was printed in time", page.display());
+        }
+        std::thread::sleep(Duration::from_millis(50));
+    }
+    fs::read_to_string(into).unwrap()
 }
 
 /// The browser to use.
@@ -161,18 +180,8 @@ fn a_page_cut_off_within_a_state_shows_those_before() {
 
 /// The number of states that a page shows which nothing was put behind.
 fn looked_at_cut(page: &Path) -> String {
-    let output = Command::new(chromium())
-        .args(["--headless", "--no-sandbox", "--dump-dom"])
-        .arg(format!(
-            "--user-data-dir={}",
-            page.with_extension("profile").display()
-        ))
-        .arg(format!("file://{}", page.display()))
-        .output()
-        .unwrap();
-    let shown = String::from_utf8_lossy(&output.stdout).into_owned();
-    let mark = "data-states=\"";
-    let rest = shown.split(mark).nth(1).unwrap();
+    let shown = printed(page);
+    let rest = shown.split("data-states=\"").nth(1).unwrap();
     rest.split('"').next().unwrap().to_owned()
 }
 
