@@ -33,6 +33,8 @@ struct Answer {
     displacements: Vec<Vec<[f64; 3]>>,
     /// On the first side of each pair.
     forces: Vec<[f64; 3]>,
+    /// The body that carries the contacts of each pair.
+    carriers: Vec<usize>,
 }
 
 /// Numbers that look random: xorshift64* (Marsaglia, J. Stat. Softw. 8 (2003) no. 14).
@@ -194,6 +196,7 @@ impl Assembly {
             status: measured.status(&outcome).0,
             fault: format!("{:?} {:?}", faults.collect::<Vec<_>>(), outcome.shortfall),
             displacements: displacements.iter().map(of_nodes).collect(),
+            carriers: surface.couplings.iter().map(|pair| pair.body).collect(),
             forces: given.unwrap().iter().map(|pair| pair.own.force).collect(),
         }
     }
@@ -302,7 +305,9 @@ fn bend(mesh: &mut Mesh, [low, high]: [f64; 2], radius: f64) {
 }
 
 fn pair(bodies: &[Body], level: usize, random: &mut Random) -> ContactPair {
-    let friction = if random.next() < 0.3 {
+    // What lies on a smooth body, and is not held, may lie anywhere along it.
+    let held = level + 1 == bodies.len();
+    let friction = if held && random.next() < 0.3 {
         0.0
     } else {
         random.between(0.05, 1.0)
@@ -360,6 +365,10 @@ struct Changed {
     /// Forces stay as they are.
     same_forces: bool,
 }
+
+/// Largest relative difference where equal sides are exchanged, so that the other one carries the contacts: what
+/// meshes of two cells on a side resolve.
+const OF_MESH: f64 = 0.3;
 
 const NAMES: [&str; 9] = [
     "sides exchanged",
@@ -623,7 +632,11 @@ fn battery(seed: u64, assemblies: usize) -> (usize, Vec<String>) {
             if changed.same_forces {
                 difference = difference.max(force_difference(&before, &after, &changed));
             }
-            if after.status != Status::Certified || difference > changed.bound {
+            let bound = match changed.exchanged && before.carriers != after.carriers {
+                true => OF_MESH,
+                false => changed.bound,
+            };
+            if after.status != Status::Certified || difference > bound {
                 let (status, fault) = (after.status, &after.fault);
                 wrong.push(format!(
                     "{number} {assembly}, {name}: {status:?} {difference:e} {fault}"
@@ -643,7 +656,7 @@ fn what_must_not_change_an_answer_does_not() {
 
 #[test]
 fn dbg_turned() {
-    for number in [88_u64, 101, 117, 10, 251] {
+    for number in [139_u64, 81] {
         let mut random = Random(
             1_u64
                 .wrapping_add(number)
@@ -651,59 +664,42 @@ fn dbg_turned() {
                 | 1,
         );
         let assembly = Assembly::random(&mut random);
-        println!("DBG {number} {assembly}");
-        let list: Vec<Option<Changed>> = (0..9)
-            .map(|kind| change(&assembly, kind, &mut random))
-            .collect();
-        let mut all = vec![("plain", assembly.clone())];
-        for (name, c) in NAMES.iter().zip(list) {
-            if let Some(c) = c {
-                if [
-                    "far away",
-                    "sides exchanged",
-                    "nodes and cells in another order",
-                ]
-                .contains(name)
-                {
-                    all.push((name, c.assembly));
+        for _ in 0..4 {
+            let changed = change(&assembly, 2, &mut random).unwrap();
+            let a = Condensed::new(&assembly.bodies, &assembly.pairs).unwrap();
+            let b = Condensed::new(&changed.assembly.bodies, &changed.assembly.pairs).unwrap();
+            let (sa, sb) = (a.surface(), b.surface());
+            println!(
+                "DBG {number} contacts {} {}",
+                sa.nodes.len(),
+                sb.nodes.len()
+            );
+            for (x, y) in sa.nodes.iter().zip(&sb.nodes) {
+                let areas = (x.area - y.area).abs() / x.area;
+                let gaps = (x.initial_gap - y.initial_gap).abs();
+                let mut worst = 0.0_f64;
+                for (n, w) in &x.own {
+                    let v = y.own.iter().find(|e| e.0 == *n).map_or(0.0, |e| e.1);
+                    worst = worst.max((w - v).abs());
+                }
+                for (n, w) in &x.opposite.as_ref().unwrap().nodes {
+                    let v = y
+                        .opposite
+                        .as_ref()
+                        .unwrap()
+                        .nodes
+                        .iter()
+                        .find(|e| e.0 == *n)
+                        .map_or(0.0, |e| e.1);
+                    worst = worst.max((w - v).abs());
+                }
+                if x.node != y.node || areas > 1e-9 || gaps > 1e-10 || worst > 1e-9 {
+                    println!(
+                        "DBG   node {} {} area {:e} gap {:e} weights {:e} bulge {:e} {:e} at {:?}",
+                        x.node, y.node, areas, gaps, worst, x.bulge, y.bulge, x.position
+                    );
                 }
             }
-        }
-        for (name, a) in all {
-            let condensed = Condensed::new(&a.bodies, &a.pairs).unwrap();
-            let problem = condensed.problem();
-            let outcome = alternation::solve(problem, &Settings::default()).unwrap();
-            let u = condensed
-                .recover(&outcome.reaction, &outcome.motion)
-                .unwrap();
-            let states: Vec<String> = outcome
-                .verdict
-                .status
-                .iter()
-                .map(|s| format!("{s:?}").chars().take(2).collect())
-                .collect();
-            let normals: Vec<String> = problem
-                .normals()
-                .iter()
-                .map(|n| format!("{:.1e}", outcome.reaction[*n]))
-                .collect();
-            let sizes: Vec<f64> = u
-                .iter()
-                .map(|u| u.iter().fold(0.0_f64, |m, x| m.max(x.abs())))
-                .collect();
-            println!(
-                "DBG   {name}: motion {:?} sizes {sizes:?} contacts {} {states:?} {normals:?} carriers {:?} res {:e} work {:?}",
-                outcome.motion,
-                problem.contacts(),
-                condensed
-                    .surface()
-                    .couplings
-                    .iter()
-                    .map(|c| c.body)
-                    .collect::<Vec<_>>(),
-                outcome.verdict.certificate.residual(),
-                outcome.work.newton_steps
-            );
         }
     }
 }
