@@ -123,17 +123,21 @@ impl Place<'_> {
         points + usize::from(higher || self.is_round())
     }
 
+    fn is_curved(&self) -> bool {
+        self.is_round() || self.piece.is_quadratic() || self.across().is_quadratic()
+    }
+
     fn is_round(&self) -> bool {
         let (one, two) = (self.coverage.one, self.coverage.two);
         one.bulges.is_round(self.piece.number) || two.bulges.is_round(self.across().number)
     }
 
-    /// What is integrated over, for triangles between its first point and its edges. What bulges is no polynomial:
-    /// in space they go around the middle, so that it does not matter which corner comes first.
+    /// What is integrated over, for triangles between its first point and its edges. What bulges or is curved is no
+    /// polynomial: in space they go around the middle, so that it does not matter which corner comes first.
     fn polygon(&self) -> Cow<'_, [Point]> {
         let corners = &self.part.polygon;
         match corners.first() {
-            Some(first) if self.is_round() && self.coverage.one.mesh.dimension == 3 => {
+            Some(first) if self.is_curved() && self.coverage.one.mesh.dimension == 3 => {
                 let around = corners.iter().chain([first]);
                 std::iter::once(&centroid(corners))
                     .chain(around)
