@@ -30,6 +30,29 @@ pub(super) fn fan(polygon: &[Point]) -> impl Iterator<Item = [Point; 3]> {
     edges.map(|edge| [polygon[0], edge[0], edge[1]])
 }
 
+/// Turn at a corner, as a part of the square of a facet's size, that is none.
+const STRAIGHT: f64 = 1e-9;
+
+/// The corners at which a polygon turns.
+pub(super) fn turning(polygon: &[Point]) -> Polygon {
+    let mut kept = Polygon::new();
+    for (index, &corner) in polygon.iter().enumerate() {
+        let before = kept.last().or(polygon.last()).copied().unwrap_or(corner);
+        let after = match polygon.get(index + 1) {
+            Some(next) => *next,
+            None => kept.first().copied().unwrap_or(corner),
+        };
+        if cross(corner - before, after - corner).abs() > STRAIGHT {
+            kept.push(corner);
+        }
+    }
+    if kept.len() < 3 {
+        polygon.to_vec()
+    } else {
+        kept
+    }
+}
+
 /// Centre of area; the polygon encloses some.
 pub(super) fn centroid(polygon: &[Point]) -> Point {
     let (mut area, mut moment) = (0.0, Point::zeros());
@@ -129,6 +152,20 @@ mod tests {
         [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
             .map(|(a, b)| Point::new(x + a * edge, y + b * edge))
             .to_vec()
+    }
+
+    #[test]
+    fn only_corners_at_which_a_polygon_turns_are_kept() {
+        let plain = square(0.0, 0.0, 1.0);
+        let mut more = plain.clone();
+        more.insert(1, Point::new(0.5, 0.0));
+        more.insert(3, Point::new(1.0, 1e-12));
+        more.push(Point::new(0.0, 0.25));
+        assert_eq!(turning(&plain), plain);
+        let found = turning(&more);
+        assert_eq!(found.len(), 4);
+        assert!((area(&found) - 1.0).abs() < 1e-11);
+        assert_eq!(turning(&plain[..2]), plain[..2]);
     }
 
     fn diamond() -> Polygon {

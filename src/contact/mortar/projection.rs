@@ -24,7 +24,7 @@ use super::cover::Part;
 use super::coverage::Coverage;
 use super::patch::{MOST_CONTACTS, Member, Patch};
 use super::pieces::Piece;
-use super::polygon::{Point, centroid};
+use super::polygon::{Point, centroid, turning};
 use super::quadrature::{LINEAR, integrate, points_for};
 use super::seen::Seen;
 use super::ties::EQUAL;
@@ -135,16 +135,24 @@ impl Place<'_> {
     /// What is integrated over, for triangles between its first point and its edges. What bulges or is curved is no
     /// polynomial: in space they go around the middle, so that it does not matter which corner comes first.
     fn polygon(&self) -> Cow<'_, [Point]> {
-        let corners = &self.part.polygon;
-        match corners.first() {
-            Some(first) if self.is_curved() && self.coverage.one.mesh.dimension == 3 => {
+        let corners = self.corners();
+        match (corners.first(), &corners) {
+            (Some(first), Cow::Owned(corners)) => {
                 let around = corners.iter().chain([first]);
-                std::iter::once(&centroid(corners))
-                    .chain(around)
-                    .copied()
-                    .collect()
+                let middle = centroid(corners);
+                std::iter::once(&middle).chain(around).copied().collect()
             }
-            _ => Cow::Borrowed(corners),
+            _ => corners,
+        }
+    }
+
+    /// The corners of what is covered; where these triangles go around the middle, without those on straight edges,
+    /// which clipping leaves or not.
+    fn corners(&self) -> Cow<'_, [Point]> {
+        let corners = &self.part.polygon;
+        match self.is_curved() && self.coverage.one.mesh.dimension == 3 {
+            true => Cow::Owned(turning(corners)),
+            false => Cow::Borrowed(corners),
         }
     }
 
@@ -231,7 +239,7 @@ struct Integrals {
 impl Integrals {
     /// Adds what covers a part, where the functions have the values of `member` at the corners.
     fn add(&mut self, place: &Place<'_>, member: &Member, model: Model) {
-        let (seen, part) = (place.seen, place.part);
+        let seen = place.seen;
         let around = around(model);
         let (mut own, mut across) = ([[0.0; 4]; MOST_FACET_NODES], [[0.0; 4]; MOST_FACET_NODES]);
         let mut least = self.sums.least;
@@ -261,7 +269,7 @@ impl Integrals {
             }
         });
         self.sums.least = least;
-        for at in &part.polygon {
+        for at in place.corners().iter() {
             let met = place.at(*at);
             self.sums.least = self.sums.least.min(met.distance);
             let functions = member.functions(&met.hats).into_iter();
