@@ -7,49 +7,78 @@
 //! A residual of r leaves a reaction wrong by up to κ r. The norm of the inverse by a few power
 //! iterations: an estimate from below.
 
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
-use faer::linalg::solvers::{PartialPivLu, Solve};
+use faer::perm::PermRef;
 use faer::{Accum, Col, Mat, Par};
 
 /// Power iterations.
 const ITERATIONS: usize = 8;
 
-/// A matrix as LU, and its largest column sum.
+/// A matrix as LU, and its largest column sum; on one thread, as several would round in their own way.
 pub(super) struct Factored {
-    lu: PartialPivLu<f64>,
+    /// L below the diagonal, U from it on.
+    lu: Mat<f64>,
+    /// The row of the matrix that each row of LU was, and the way back.
+    rows: [Vec<usize>; 2],
     size: f64,
 }
 
 impl Factored {
     pub(super) fn new(matrix: &Mat<f64>) -> Self {
         let sums = matrix.col_iter().map(|column| column.norm_l1());
+        let (mut lu, count) = (matrix.clone(), matrix.nrows());
+        let mut rows = [vec![0; count], vec![0; count]];
+        let [forward, back] = &mut rows;
+        let room =
+            factor::lu_in_place_scratch::<usize, f64>(count, count, Par::Seq, Default::default());
+        factor::lu_in_place(
+            lu.as_mut(),
+            forward,
+            back,
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(room)),
+            Default::default(),
+        );
         Self {
             size: sums.fold(0.0, f64::max),
-            lu: matrix.partial_piv_lu(),
+            lu,
+            rows,
         }
     }
 
     pub(super) fn solve(&self, right: &Col<f64>) -> Col<f64> {
-        self.lu.solve(right)
+        let (mut solution, count) = (right.clone(), self.lu.nrows());
+        let room = solve::solve_in_place_scratch::<usize, f64>(count, 1, Par::Seq);
+        solve::solve_in_place(
+            self.lu.as_ref(),
+            self.lu.as_ref(),
+            PermRef::new_checked(&self.rows[0], &self.rows[1], count),
+            solution.as_mat_mut(),
+            Par::Seq,
+            MemStack::new(&mut MemBuffer::new(room)),
+        );
+        solution
     }
 
     /// Sign of the determinant.
     pub(super) fn sign(&self) -> f64 {
-        let pivots = self.lu.U().diagonal().column_vector();
-        let odd = is_odd(self.lu.P().arrays().0);
+        let pivots = self.lu.diagonal().column_vector();
+        let odd = is_odd(&self.rows[0]);
         let sign = |negative: bool| if negative { -1.0 } else { 1.0 };
         pivots.iter().map(|pivot| pivot.signum()).product::<f64>() * sign(odd)
     }
 
     /// Products of two numbers that it took.
     pub(super) fn products(&self) -> f64 {
-        (self.lu.L().nrows() as f64).powi(3) / 3.0
+        (self.lu.nrows() as f64).powi(3) / 3.0
     }
 
     /// κ; infinite where the matrix is singular.
     pub(super) fn condition(&self) -> f64 {
         // Uneven enough not to be at right angles with what it should find.
-        let rows = self.lu.L().nrows();
+        let rows = self.lu.nrows();
         let mut vector = Col::from_fn(rows, |k| 1.0 + (2.4 * k as f64).sin());
         let mut value = 0.0;
         for _ in 0..ITERATIONS {
@@ -57,7 +86,7 @@ impl Factored {
             if length == 0.0 || !length.is_finite() {
                 break;
             }
-            vector = self.lu.solve(vector * faer::Scale(length.recip()));
+            vector = self.solve(&(vector * faer::Scale(length.recip())));
             value = vector.norm_l2();
         }
         match value.is_nan() {

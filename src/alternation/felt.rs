@@ -104,7 +104,11 @@ impl Felt {
 
 /// Whether a glance shows that contacts feel all motions: by the squares of what they feel.
 fn is_felt(modes: &Mat<f64>) -> bool {
-    let squares = modes.transpose() * modes;
+    let dot = |i: usize, k: usize| {
+        let pairs = modes.col_as_slice(i).iter().zip(modes.col_as_slice(k));
+        pairs.map(|(a, b)| a * b).sum()
+    };
+    let squares: Mat<f64> = Mat::from_fn(modes.ncols(), modes.ncols(), dot);
     match squares.self_adjoint_eigenvalues(faer::Side::Lower) {
         Ok(values) => {
             let most = values.iter().copied().fold(0.0, f64::max);
