@@ -2,7 +2,7 @@
 //!
 //! | format | file |
 //! |---|---|
-//! | Gmsh 2.2 and 4.1, ASCII | `gmsh` |
+//! | Gmsh 2.2 and 4.1, ASCII and binary | `gmsh` |
 //! | Abaqus and CalculiX decks | `abaqus` |
 
 pub(crate) mod abaqus;

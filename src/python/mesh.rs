@@ -49,7 +49,7 @@ impl Mesh {
         Ok(Self(mesh))
     }
 
-    /// Reads a Gmsh file, MSH 2.2 or 4.1 in ASCII.
+    /// Reads a Gmsh file, MSH 2.2 or 4.1, ASCII or binary.
     #[staticmethod]
     fn read(path: PathBuf) -> PyResult<Self> {
         let file = path.display().to_string();

@@ -20,7 +20,7 @@ pub(super) const MOST_NODES: usize = 20_000_000;
 pub enum MeshSource {
     /// A Gmsh file.
     File {
-        /// MSH 2.2 or 4.1 ASCII, relative to the scene's folder.
+        /// MSH 2.2 or 4.1, ASCII or binary, relative to the scene's folder.
         file: PathBuf,
         /// Factor on all positions, such as 0.001 for a mesh in mm; 1 when left out.
         #[cfg_attr(feature = "cli", schemars(default = "one", extend("exclusiveMinimum" = 0)))]

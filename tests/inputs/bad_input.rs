@@ -414,7 +414,7 @@ fn a_mesh_file_that_is_missing_or_no_mesh_is_refused() {
 }
 
 #[test]
-fn a_truncated_or_binary_mesh_is_refused_at_its_line() {
+fn a_truncated_mesh_or_text_called_binary_is_refused_at_its_line() {
     let whole = std::fs::read(format!("{FOLDER}/meshes/A_block_n32.msh")).unwrap();
     let read = |bytes: &[u8]| {
         dpana::mesh_file::gmsh::parse(bytes, "A.msh")
@@ -427,10 +427,11 @@ fn a_truncated_or_binary_mesh_is_refused_at_its_line() {
     }
     let text = String::from_utf8(whole).unwrap();
     let binary = text.replacen("4.1 0 8", "4.1 1 8", 1);
-    assert!(read(binary.as_bytes()).starts_with("A.msh:2: the file is binary"));
+    let said = "A.msh:3: byte 20: found the bytes [24, 45, 6e, 64]; expected the number 1";
+    assert!(read(binary.as_bytes()).starts_with(said));
     let mut odd = binary.into_bytes();
     odd[200] = 0xfe;
-    assert!(read(&odd).starts_with("A.msh:2: the file is binary"));
+    assert!(read(&odd).starts_with(said));
     assert!(read(&[0xfe, 0xff, 0]).starts_with("A.msh:1: byte 0xfe is not text"));
 }
 

@@ -8,6 +8,7 @@ mod stacks;
 
 mod bad_input;
 mod bad_pairs;
+mod binary_mesh;
 mod checked_scenes;
 mod command_line;
 mod damaged_mesh;

@@ -11,6 +11,10 @@ use crate::error::Error;
 /// Largest distance from the plane `z = constant`, relative to the size of a plane mesh.
 const FLAT: f64 = 1e-10;
 
+/// What to do about a file that holds only the boundary of a body.
+const MESH_IT: &str = "for a solid mesh its volume (`gmsh -3`), for a plane body its surface (`gmsh -2`), and put that \
+    in a physical group if there are any, as Gmsh then leaves out all else";
+
 /// Node of the file that the mesh does not hold.
 const DROPPED: usize = usize::MAX;
 
@@ -26,9 +30,9 @@ pub(super) fn mesh(
     let elements = elements.ok_or_else(|| missing("Elements"))?;
     let dimension = elements.iter().map(|e| e.shape.dimension()).max();
     let Some(dimension @ 2..=3) = dimension else {
-        return Err(
-            lines.error("no cell: expected triangles, quadrilaterals, tetrahedra or hexahedra")
-        );
+        return Err(lines.error(format!(
+            "no cell: expected triangles, quadrilaterals, tetrahedra or hexahedra; {MESH_IT}"
+        )));
     };
     let new_index = number_nodes(contents, nodes, elements, dimension);
     let mut mesh = Mesh::new(dimension.into(), kept_positions(nodes, &new_index));
@@ -97,7 +101,7 @@ fn flatten(
             let tag = old.map_or(0, |old| nodes.tags()[old]);
             return Err(lines.error(format!(
                 "node {tag} of a plane mesh lies at z = {}; expected z = {height} as for the \
-                 other nodes",
+                 other nodes, or the cells of a solid; {MESH_IT}",
                 position[2]
             )));
         }
@@ -140,8 +144,11 @@ fn push_cells(
             mesh.push_cell(kind, &nodes[..element.count]);
         } else if version == Version::Four || first.entity == element.entity {
             return Err(lines.error_at(
-                element.line,
-                format!("the element repeats the cell of line {}", first.line),
+                element.place,
+                format!(
+                    "the element repeats the cell of {}",
+                    lines.name_of(first.place)
+                ),
             ));
         }
         cells.push(cell);

@@ -67,8 +67,8 @@ impl Shape {
 /// One element with its nodes as indices into [`Nodes`].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Element {
-    /// Line of the file, for messages.
-    pub(super) line: usize,
+    /// Place in the file, for messages.
+    pub(super) place: usize,
     /// Shape.
     pub(super) shape: Shape,
     /// Geometric entity (4.1) or physical group (2.2); with the shape's dimension it is a
@@ -149,7 +149,7 @@ impl Contents {
     /// Reads lines such as `2 100 "body"`.
     pub(super) fn read_names(&mut self, lines: &mut Lines<'_>) -> Result<(), Error> {
         let mut head = lines.fields(&"the number of physical names")?;
-        let count: usize = head.integer("number of physical names")?;
+        let count: usize = head.size("number of physical names")?;
         for at in 0..count {
             let line = lines.line(&format_args!("physical name {} of {count}", at + 1))?;
             let named = line

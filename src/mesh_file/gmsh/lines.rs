@@ -1,59 +1,130 @@
-//! The lines of a .msh file, with their numbers for messages.
+//! The lines of a .msh file, and the numbers of a binary one, with their places for messages.
+//!
+//! A binary file holds lines too (names of sections, physical names, counts of MSH 2.2). Between them
+//! stand bare numbers in the order of an ASCII file: `int` 4 bytes, `size_t` and `double` 8.
 
 use std::fmt::Display;
-use std::str::{FromStr, SplitAsciiWhitespace};
 
+use super::fields::{Fields, Order, Source};
 use crate::error::Error;
 
-/// Steps through the lines of a file; empty lines are passed over.
+/// Steps through a file; empty lines are passed over.
 pub(super) struct Lines<'a> {
-    rest: std::str::Lines<'a>,
-    file: &'a str,
+    bytes: &'a [u8],
+    /// Number of bytes read.
+    at: usize,
+    /// Where that begins which was read last.
+    start: usize,
+    /// Number of lines read.
     number: usize,
+    /// Byte order of a binary file, none in an ASCII one.
+    order: Option<Order>,
+    file: &'a str,
 }
 
 impl<'a> Lines<'a> {
-    /// The lines of `text`; `file` names it in messages.
-    pub(super) fn new(text: &'a str, file: &'a str) -> Self {
+    /// The lines of a file that is ASCII as far as is known; `file` names it in messages.
+    pub(super) fn new(bytes: &'a [u8], file: &'a str) -> Self {
         Self {
-            rest: text.lines(),
-            file,
+            bytes,
+            at: 0,
+            start: 0,
             number: 0,
+            order: None,
+            file,
         }
     }
 
-    /// Number of the line read last, from 1.
-    pub(super) fn number(&self) -> usize {
-        self.number
+    /// Whether bare numbers stand between the lines.
+    pub(super) fn binary(&self) -> bool {
+        self.order.is_some()
     }
 
-    /// An error at the line read last.
+    /// Place of what was read last: its line, from 1, or in a binary file its first byte, from 0.
+    pub(super) fn place(&self) -> usize {
+        if self.binary() {
+            self.start
+        } else {
+            self.number
+        }
+    }
+
+    /// A place as words in a sentence.
+    pub(super) fn name_of(&self, place: usize) -> String {
+        let unit = if self.binary() { "byte" } else { "line" };
+        format!("{unit} {place}")
+    }
+
+    /// An error at what was read last.
     pub(super) fn error(&self, reason: impl Into<String>) -> Error {
-        self.error_at(self.number, reason)
+        self.error_at(self.place(), reason)
     }
 
-    /// An error at an earlier line.
-    pub(super) fn error_at(&self, line: usize, reason: impl Into<String>) -> Error {
+    /// An error at an earlier place.
+    pub(super) fn error_at(&self, place: usize, reason: impl Into<String>) -> Error {
+        if self.binary() {
+            return error_at_byte(self.bytes, self.file, place, &reason.into());
+        }
         Error::Mesh {
             file: self.file.to_owned(),
-            line,
+            line: place,
             reason: reason.into(),
         }
     }
 
-    fn advance(&mut self) -> Option<&'a str> {
+    /// Reads the number one behind the format's line, which tells the byte order.
+    pub(super) fn read_order(&mut self) -> Result<(), Error> {
+        self.start = self.at;
+        let one = self.bytes[self.at..].first_chunk::<4>();
+        self.order = match one {
+            Some([1, 0, 0, 0]) => Some(Order::Little),
+            Some([0, 0, 0, 1]) => Some(Order::Big),
+            _ => {
+                let found = match one {
+                    Some(bytes) => format!("found the bytes {bytes:02x?}"),
+                    None => "the file ends".to_owned(),
+                };
+                let expected =
+                    "expected the number 1 in four bytes, as the file is binary (file type 1)";
+                return Err(error_at_byte(
+                    self.bytes,
+                    self.file,
+                    self.at,
+                    &format!("{found}; {expected}"),
+                ));
+            }
+        };
+        self.at += 4;
+        Ok(())
+    }
+
+    fn advance(&mut self) -> Result<Option<&'a str>, Error> {
         loop {
-            let line = self.rest.next()?.trim();
+            let bytes = self.bytes;
+            let rest = &bytes[self.at..];
+            self.start = self.at;
+            if rest.is_empty() {
+                return Ok(None);
+            }
+            let end = rest.iter().position(|&byte| byte == b'\n');
+            let line = &rest[..end.map_or(rest.len(), |end| end + 1)];
+            self.at += line.len();
             self.number += 1;
-            if !line.is_empty() {
-                return Some(line);
+            let text = std::str::from_utf8(line).map_err(|broken| {
+                let byte = line[broken.valid_up_to()];
+                self.error(format!(
+                    "byte {byte:#04x} is not text; expected a line of text"
+                ))
+            })?;
+            if !text.trim().is_empty() {
+                return Ok(Some(text.trim()));
             }
         }
     }
 
     /// Next line inside a section; the end of file or of the section is an error.
     pub(super) fn line(&mut self, expected: &dyn Display) -> Result<&'a str, Error> {
-        match self.advance() {
+        match self.advance()? {
             None => Err(self.error(format!("the file ends; expected {expected}"))),
             Some(line) if line.starts_with('$') => {
                 Err(self.error(format!("expected {expected}, found {}", quote(line))))
@@ -64,17 +135,32 @@ impl<'a> Lines<'a> {
 
     /// Next line inside a section, cut into its words.
     pub(super) fn fields(&mut self, expected: &dyn Display) -> Result<Fields<'a>, Error> {
-        let line = self.line(expected)?;
-        Ok(Fields {
-            words: line.split_ascii_whitespace(),
-            file: self.file,
-            number: self.number,
-        })
+        let words = self.line(expected)?.split_ascii_whitespace();
+        let line = self.number;
+        Ok(Fields::new(self.file, Source::Words { words, line }))
+    }
+
+    /// What an ASCII file has on one line: that line, or the bare numbers from here on.
+    pub(super) fn record(&mut self, expected: &dyn Display) -> Result<Fields<'a>, Error> {
+        let Some(order) = self.order else {
+            return self.fields(expected);
+        };
+        self.start = self.at;
+        let (bytes, at) = (self.bytes, self.at);
+        Ok(Fields::new(self.file, Source::Bytes { bytes, at, order }))
+    }
+
+    /// Goes on behind the fields of a record; words left on its line are refused.
+    pub(super) fn close(&mut self, fields: Fields<'a>) -> Result<(), Error> {
+        if let Some(at) = fields.end()? {
+            self.at = at;
+        }
+        Ok(())
     }
 
     /// Name of the next section, none at the end of the file.
     pub(super) fn section(&mut self) -> Result<Option<&'a str>, Error> {
-        match self.advance() {
+        match self.advance()? {
             None => Ok(None),
             Some(line) => match line.strip_prefix('$') {
                 Some(name) if !name.starts_with("End") => Ok(Some(name)),
@@ -88,7 +174,7 @@ impl<'a> Lines<'a> {
 
     /// Reads the line that closes a section.
     pub(super) fn end(&mut self, section: &str) -> Result<(), Error> {
-        match self.advance() {
+        match self.advance()? {
             Some(line) if line.strip_prefix("$End") == Some(section) => Ok(()),
             Some(line) => Err(self.error(format!(
                 "expected `$End{section}` after the announced count, found {}",
@@ -98,72 +184,38 @@ impl<'a> Lines<'a> {
         }
     }
 
-    /// Passes over a section's lines up to the one that closes it.
+    /// Passes over a section up to the line that closes it.
     pub(super) fn skip(&mut self, section: &str) -> Result<(), Error> {
+        if self.binary() {
+            let end = format!("$End{section}");
+            let rest = &self.bytes[self.at..];
+            let found = rest
+                .windows(end.len())
+                .position(|bytes| bytes == end.as_bytes());
+            self.at += found.unwrap_or(rest.len());
+            return Ok(());
+        }
         loop {
-            let mut ahead = self.rest.clone();
-            match ahead.next().map(str::trim) {
+            let before = (self.at, self.number);
+            match self.advance()? {
                 None => return Ok(()),
-                Some(line) if line.strip_prefix("$End") == Some(section) => return Ok(()),
-                Some(_) => {
-                    self.rest = ahead;
-                    self.number += 1;
+                Some(line) if line.strip_prefix("$End") == Some(section) => {
+                    (self.at, self.number) = before;
+                    return Ok(());
                 }
+                Some(_) => {}
             }
         }
     }
 }
 
-/// The words of one line.
-pub(super) struct Fields<'a> {
-    words: SplitAsciiWhitespace<'a>,
-    file: &'a str,
-    number: usize,
-}
-
-impl<'a> Fields<'a> {
-    fn error(&self, reason: String) -> Error {
-        Error::Mesh {
-            file: self.file.to_owned(),
-            line: self.number,
-            reason,
-        }
-    }
-
-    /// Next word.
-    pub(super) fn word(&mut self, meaning: &str) -> Result<&'a str, Error> {
-        self.words
-            .next()
-            .ok_or_else(|| self.error(format!("the line ends; expected a {meaning}")))
-    }
-
-    /// Next word as an integer.
-    pub(super) fn integer<T: FromStr>(&mut self, meaning: &str) -> Result<T, Error> {
-        let word = self.word(meaning)?;
-        word.parse()
-            .map_err(|_| self.error(format!("{} is not a {meaning}", quote(word))))
-    }
-
-    /// Next word as a finite number.
-    pub(super) fn coordinate(&mut self) -> Result<f64, Error> {
-        let word = self.word("coordinate")?;
-        match word.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(value),
-            _ => Err(self.error(format!("{} is not a finite coordinate", quote(word)))),
-        }
-    }
-
-    /// Three coordinates.
-    pub(super) fn position(&mut self) -> Result<[f64; 3], Error> {
-        Ok([self.coordinate()?, self.coordinate()?, self.coordinate()?])
-    }
-
-    /// Refuses further words.
-    pub(super) fn end(mut self) -> Result<(), Error> {
-        match self.words.next() {
-            None => Ok(()),
-            Some(word) => Err(self.error(format!("{} is one word too many", quote(word)))),
-        }
+/// An error at a byte, and at the line that it lies on as editors count them.
+pub(super) fn error_at_byte(bytes: &[u8], file: &str, at: usize, reason: &str) -> Error {
+    let before = &bytes[..at.min(bytes.len())];
+    Error::Mesh {
+        file: file.to_owned(),
+        line: 1 + before.iter().filter(|&&byte| byte == b'\n').count(),
+        reason: format!("byte {at}: {reason}"),
     }
 }
 

@@ -1,4 +1,4 @@
-//! Gmsh meshes: a reader of MSH 2.2 and 4.1, ASCII, and a writer of 2.2.
+//! Gmsh meshes: a reader of MSH 2.2 and 4.1, ASCII and binary, and a writer of 2.2, ASCII.
 //!
 //! ```text
 //! $MeshFormat → $PhysicalNames → $Entities (4.1) → $Nodes → $Elements
@@ -8,10 +8,12 @@
 //! mesh's groups under their name, or under their number where they have none; a name
 //! used in several dimensions gets the dimension appended (`wall.1d`, `wall.2d`).
 //! Nodes that only construct the geometry are dropped, and lengths stay as they stand
-//! in the file. Format: Gmsh reference manual, "MSH file format".
+//! in the file. A binary file may have either byte order, which it states itself; messages on it
+//! name the byte, counted from 0. Format: Gmsh reference manual, "MSH file format".
 
 mod assemble;
 mod contents;
+mod fields;
 mod lines;
 mod version2;
 mod version4;
@@ -36,34 +38,17 @@ enum Version {
 ///
 /// # Errors
 ///
-/// [`Error::Mesh`] with the line: bytes that are not text, a binary or truncated file, a version other
-/// than 2.2 and 4.1, counts that do not match, unknown tags, an element that is neither linear nor
-/// quadratic, a plane mesh that does not lie in a plane `z = constant`, no cell at all.
+/// [`Error::Mesh`] with the line, and in a binary file the byte: an ASCII file with bytes that are not
+/// text, a truncated file, a version other than 2.2 and 4.1, counts that do not match, unknown tags, an
+/// element that is neither linear nor quadratic, a plane mesh that does not lie in a plane
+/// `z = constant`, no cell at all.
 pub fn parse(content: impl AsRef<[u8]>, name: &str) -> Result<Mesh, Error> {
     let bytes = content.as_ref();
-    let broken = match std::str::from_utf8(bytes) {
-        Ok(text) => return read(text, name),
-        Err(broken) => broken.valid_up_to(),
-    };
-    // A header that says "binary" explains more than the first odd byte behind it.
-    let start = std::str::from_utf8(&bytes[..broken]).unwrap_or_default();
-    if start.contains("$MeshFormat") {
-        header(&mut Lines::new(start, name))?;
-    }
-    let line = 1 + bytes[..broken].iter().filter(|&&b| b == b'\n').count();
-    Err(Error::Mesh {
-        file: name.to_owned(),
-        line,
-        reason: format!(
-            "byte {:#04x} is not text; expected an ASCII .msh file",
-            bytes[broken]
-        ),
-    })
-}
-
-fn read(text: &str, name: &str) -> Result<Mesh, Error> {
-    let mut lines = Lines::new(text, name);
+    let mut lines = Lines::new(bytes, name);
     let version = header(&mut lines)?;
+    if !lines.binary() {
+        check_text(bytes, name)?;
+    }
     let mut contents = Contents::default();
     while let Some(section) = lines.section()? {
         match (section, version) {
@@ -81,6 +66,22 @@ fn read(text: &str, name: &str) -> Result<Mesh, Error> {
         lines.end(section)?;
     }
     assemble::mesh(&contents, version, &lines)
+}
+
+/// Refuses an ASCII file with bytes that are not text, even where its lines are passed over.
+fn check_text(bytes: &[u8], name: &str) -> Result<(), Error> {
+    let Err(broken) = std::str::from_utf8(bytes) else {
+        return Ok(());
+    };
+    let at = broken.valid_up_to();
+    Err(Error::Mesh {
+        file: name.to_owned(),
+        line: 1 + bytes[..at].iter().filter(|&&b| b == b'\n').count(),
+        reason: format!(
+            "byte {:#04x} is not text; expected text, as the file says that it is ASCII (file type 0)",
+            bytes[at]
+        ),
+    })
 }
 
 /// Reads `$MeshFormat`, which comes first (after comments).
@@ -112,11 +113,18 @@ fn header(lines: &mut Lines<'_>) -> Result<Version, Error> {
     match fields.word("file type")? {
         "0" => {}
         "1" => {
-            return Err(lines.error("the file is binary (file type 1); expected ASCII (0)"));
+            let size = fields.word("word size")?;
+            if size != "8" {
+                return Err(lines.error(format!(
+                    "numbers of {} bytes are not read from a binary file; expected 8",
+                    lines::quote(size)
+                )));
+            }
+            lines.read_order()?;
         }
         other => {
             return Err(lines.error(format!(
-                "file type {} is not known; expected 0 (ASCII)",
+                "file type {} is not known; expected 0 (ASCII) or 1 (binary)",
                 lines::quote(other)
             )));
         }
@@ -278,7 +286,7 @@ mod tests {
     fn wrong_numbers_are_refused_at_their_line() {
         for (from, to, line, said) in [
             ("2.2 0 8", "4.0 0 8", 2, "expected 2.2 or 4.1"),
-            ("2.2 0 8", "2.2 1 8", 2, "binary"),
+            ("2.2 0 8", "2.2 1 8", 3, "expected the number 1"),
             ("$Nodes\n5", "$Nodes\n6", 15, "node 6 of 6"),
             ("$Nodes\n5", "$Nodes\n4", 14, "after the announced count"),
             (

@@ -1,6 +1,7 @@
 //! Sections of MSH 4.1: blocks of nodes and elements per geometric entity.
 
 use super::contents::{Contents, Element, MOST_NODES, Shape};
+use super::fields::Fields;
 use super::lines::Lines;
 use crate::error::Error;
 
@@ -11,27 +12,34 @@ use crate::error::Error;
 /// others:  tag minX minY minZ maxX maxY maxZ     groups g₁ … g_groups  bounding entities
 /// ```
 pub(super) fn entities(lines: &mut Lines<'_>, contents: &mut Contents) -> Result<(), Error> {
-    let mut head = lines.fields(&"the numbers of points, curves, surfaces and volumes")?;
+    let mut head = lines.record(&"the numbers of points, curves, surfaces and volumes")?;
     let mut counts = [0_usize; 4];
     for count in &mut counts {
-        *count = head.integer("number of entities")?;
+        *count = head.size("number of entities")?;
     }
-    head.end()?;
+    lines.close(head)?;
     for (dimension, count) in (0_u8..).zip(counts) {
         for at in 0..count {
-            let mut fields = lines.fields(&format_args!(
+            let mut fields = lines.record(&format_args!(
                 "entity {} of {count} of dimension {dimension}",
                 at + 1
             ))?;
-            let tag: i32 = fields.integer("entity tag")?;
+            let tag: i32 = fields.int("entity tag")?;
             for _ in 0..if dimension == 0 { 3 } else { 6 } {
                 fields.coordinate()?;
             }
-            let groups: usize = fields.integer("number of physical groups")?;
+            let groups: usize = fields.size("number of physical groups")?;
             let mut physical = Vec::new();
             for _ in 0..groups {
                 // A minus marks a reversed orientation.
-                physical.push(fields.integer::<i32>("physical group")?.unsigned_abs());
+                physical.push(fields.int::<i32>("physical group")?.unsigned_abs());
+            }
+            if lines.binary() {
+                // A line simply ends; bare numbers have to be passed over.
+                for _ in 0..bounding(&mut fields, dimension)? {
+                    fields.int::<i32>("bounding entity")?;
+                }
+                lines.close(fields)?;
             }
             if contents
                 .groups_of_entity
@@ -47,6 +55,14 @@ pub(super) fn entities(lines: &mut Lines<'_>, contents: &mut Contents) -> Result
     Ok(())
 }
 
+/// Number of entities that bound an entity.
+fn bounding(fields: &mut Fields<'_>, dimension: u8) -> Result<u64, Error> {
+    if dimension == 0 {
+        return Ok(0);
+    }
+    fields.size("number of bounding entities")
+}
+
 /// Counts of a section of blocks, from its first line.
 struct Head {
     blocks: usize,
@@ -54,14 +70,14 @@ struct Head {
 }
 
 fn head(lines: &mut Lines<'_>, what: &str) -> Result<Head, Error> {
-    let mut fields = lines.fields(&format_args!("the numbers of blocks and {what}"))?;
+    let mut fields = lines.record(&format_args!("the numbers of blocks and {what}"))?;
     let head = Head {
-        blocks: fields.integer("number of blocks")?,
-        total: fields.integer("total count")?,
+        blocks: fields.size("number of blocks")?,
+        total: fields.size("total count")?,
     };
-    fields.integer::<u64>("smallest tag")?;
-    fields.integer::<u64>("largest tag")?;
-    fields.end()?;
+    fields.size::<u64>("smallest tag")?;
+    fields.size::<u64>("largest tag")?;
+    lines.close(fields)?;
     Ok(head)
 }
 
@@ -74,14 +90,14 @@ struct Block {
 }
 
 fn block(lines: &mut Lines<'_>, at: usize, blocks: usize) -> Result<Block, Error> {
-    let mut fields = lines.fields(&format_args!("block {} of {blocks}", at + 1))?;
+    let mut fields = lines.record(&format_args!("block {} of {blocks}", at + 1))?;
     let block = Block {
-        dimension: fields.integer("dimension from 0 to 3")?,
-        entity: fields.integer("entity tag")?,
-        kind: fields.integer("parametric flag or element type")?,
-        count: fields.integer("number of entries")?,
+        dimension: fields.int("dimension from 0 to 3")?,
+        entity: fields.int("entity tag")?,
+        kind: fields.int("parametric flag or element type")?,
+        count: fields.size("number of entries")?,
     };
-    fields.end()?;
+    lines.close(fields)?;
     if block.dimension > 3 {
         return Err(lines.error(format!(
             "{} is not a dimension from 0 to 3",
@@ -110,18 +126,18 @@ pub(super) fn nodes(lines: &mut Lines<'_>, contents: &mut Contents) -> Result<()
         let start = listed.len();
         for node in 0..block.count {
             let of = block.count;
-            let mut fields = lines.fields(&format_args!("tag of node {} of {of}", node + 1))?;
-            listed.push((fields.integer("node tag")?, [0.0; 3]));
-            fields.end()?;
+            let mut fields = lines.record(&format_args!("tag of node {} of {of}", node + 1))?;
+            listed.push((fields.size("node tag")?, [0.0; 3]));
+            lines.close(fields)?;
         }
         for entry in &mut listed[start..] {
-            let mut fields = lines.fields(&format_args!("position of node {}", entry.0))?;
+            let mut fields = lines.record(&format_args!("position of node {}", entry.0))?;
             entry.1 = fields.position()?;
             // A parametric block adds the node's coordinates on its entity.
             for _ in 0..if block.kind == 0 { 0 } else { block.dimension } {
                 fields.coordinate()?;
             }
-            fields.end()?;
+            lines.close(fields)?;
         }
     }
     check_total(lines, "nodes", total, listed.len())?;
@@ -150,15 +166,15 @@ pub(super) fn elements(lines: &mut Lines<'_>, contents: &mut Contents) -> Result
         }
         for element in 0..block.count {
             let of = block.count;
-            let mut fields = lines.fields(&format_args!("element {} of {of}", element + 1))?;
-            fields.integer::<u64>("element tag")?;
+            let mut fields = lines.record(&format_args!("element {} of {of}", element + 1))?;
+            fields.size::<u64>("element tag")?;
             let mut slots = [u32::MAX; MOST_NODES];
             for slot in &mut slots[..nodes] {
-                *slot = contents.node(fields.integer("node tag")?, lines)?;
+                *slot = contents.node(fields.size("node tag")?, lines)?;
             }
-            fields.end()?;
+            lines.close(fields)?;
             elements.push(Element {
-                line: lines.number(),
+                place: lines.place(),
                 shape,
                 entity: block.entity,
                 count: nodes,
