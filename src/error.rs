@@ -315,7 +315,8 @@ pub enum Error {
     /// A facet that is not on the surface.
     #[error(
         "{place}: the facet with nodes {nodes:?} belongs to {cells} cells; expected a facet of the surface, \
-         which belongs to exactly one"
+         which belongs to exactly one{}",
+        parted(*cells)
     )]
     FacetOwners {
         /// Where the facet stands.
@@ -473,6 +474,17 @@ fn did_you_mean(nearest: &Option<String>) -> String {
         .as_ref()
         .map(|name| format!(" (did you mean `{name}`?)"))
         .unwrap_or_default()
+}
+
+/// How bodies come apart that hold a facet together.
+fn parted(cells: usize) -> &'static str {
+    match cells {
+        0 | 1 => "",
+        _ => {
+            " (where bodies touch, each needs nodes of its own: mesh them without joining their faces, in Gmsh \
+             without `Coherence` and fragments, or from a file each)"
+        }
+    }
 }
 
 fn listed(known: &[String]) -> String {

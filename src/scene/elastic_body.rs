@@ -86,7 +86,8 @@ pub struct SceneMaterial {
 }
 
 /// Models of a mesh in 2D.
-const PLANE: &str = "plane_strain, plane_stress or axisymmetric for a mesh in 2D";
+const PLANE: &str = "plane_strain, plane_stress or axisymmetric for a mesh in 2D, or else a \
+    mesh with cells of a solid (from Gmsh: `gmsh -3`, with the volume in a physical group)";
 
 impl SceneMaterial {
     /// A material of all cells: Young's modulus in force per area, Poisson's ratio.

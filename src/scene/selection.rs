@@ -7,9 +7,20 @@ use crate::error::{Error, check_finite, check_length};
 /// Farthest that a node may lie from the position that selects it, relative to the mesh's size.
 pub(super) const AT_NODE: f64 = 1e-6;
 
+/// What a mesh without groups needs.
+const NO_GROUPS: &str = "a mesh with named groups of facets and cells (in Gmsh physical groups, such as `Physical \
+    Surface(\"contact\") = {3};` for a face of a solid, and one for its volume; then mesh it again)";
+
 /// The group of this name, which must not be empty.
 pub(super) fn group<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a Group, Error> {
     let Some(group) = mesh.groups.get(name) else {
+        if mesh.groups.is_empty() {
+            return Err(Error::NotAccepted {
+                place: place.to_owned(),
+                found: format!("group `{name}` of a mesh without groups"),
+                accepted: NO_GROUPS.to_owned(),
+            });
+        }
         let known = mesh.groups.keys();
         return Err(Error::UnknownName {
             place: place.to_owned(),
