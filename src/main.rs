@@ -1,13 +1,15 @@
-//! The command line: solve, cases, limit, half-space, study, check, import, schema, verify.
+//! The command line: solve, cases, limit, half-space, study, check, import, schema, verify, and
+//! completions and manual pages for itself.
 
 mod commands;
 
+use std::error::Error;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 
-use commands::{Cases, Check, HalfSpace, Import, Limit, Solve, Study, Verify};
+use commands::{Cases, Check, Completions, HalfSpace, Import, Limit, Man, Solve, Study, Verify};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -16,6 +18,14 @@ use commands::{Cases, Check, HalfSpace, Import, Limit, Solve, Study, Verify};
 #[derive(Parser)]
 #[command(version)]
 struct CommandLine {
+    /// Compute on N threads; all cores when left out.
+    #[arg(
+        long,
+        value_name = "N",
+        global = true,
+        value_parser = clap::value_parser!(u16).range(1..=MOST_THREADS)
+    )]
+    threads: Option<u16>,
     #[command(subcommand)]
     command: Command,
 }
@@ -44,10 +54,37 @@ enum Command {
     Schema,
     /// Compute scenes whose answers are known, and say by how much they miss them.
     Verify(Verify),
+    /// Print the script that lets a shell complete commands and options.
+    Completions(Completions),
+    /// Print the manual page, as `man -l` reads it.
+    Man(Man),
 }
 
+/// Most threads to ask for: beyond it a slip of the pen would fill the machine.
+const MOST_THREADS: i64 = 1024;
+
 fn main() -> ExitCode {
-    let done = match CommandLine::parse().command {
+    let line = CommandLine::parse();
+    let done = use_threads(line.threads).and_then(|()| run(line.command));
+    done.unwrap_or_else(|error| {
+        // With standard error closed there is nobody left to tell.
+        let _ = writeln!(io::stderr(), "error: {error}");
+        ExitCode::from(2)
+    })
+}
+
+/// Sets the number of threads that everything computes on.
+fn use_threads(count: Option<u16>) -> Result<(), Box<dyn Error>> {
+    let Some(count) = count else {
+        return Ok(());
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(count.into());
+    let built = pool.build_global();
+    built.map_err(|error| format!("--threads {count}: {error}; expected fewer").into())
+}
+
+fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
+    match command {
         Command::Solve(arguments) => commands::solve(&arguments),
         Command::Cases(arguments) => commands::cases(&arguments),
         Command::Limit(arguments) => commands::limit(&arguments),
@@ -57,10 +94,9 @@ fn main() -> ExitCode {
         Command::Import(arguments) => commands::import(&arguments),
         Command::Schema => commands::schema(),
         Command::Verify(arguments) => commands::verify(&arguments),
-    };
-    done.unwrap_or_else(|error| {
-        // With standard error closed there is nobody left to tell.
-        let _ = writeln!(io::stderr(), "error: {error}");
-        ExitCode::from(2)
-    })
+        Command::Completions(arguments) => {
+            commands::completions(&arguments, CommandLine::command())
+        }
+        Command::Man(arguments) => commands::man(&arguments, CommandLine::command()),
+    }
 }

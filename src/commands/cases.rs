@@ -30,7 +30,7 @@ pub(crate) fn cases(arguments: &Cases) -> Result<ExitCode, Box<dyn Error>> {
     check_output("--out", &arguments.out, &arguments.scene)?;
     let variations = arguments.vary.iter().map(|text| variation(text));
     let variations: Vec<Variation> = variations.collect::<Result<_, _>>()?;
-    let progress = Progress::new();
+    let progress = Progress::new(false);
     let scene = read_scene(&arguments.scene)?;
     let table = dpana::cases_watched(&scene, &variations, |done, all| {
         progress.show(&format!("{done} of {all} cases"));

@@ -45,7 +45,7 @@ pub(crate) fn half_space(arguments: &HalfSpace) -> Result<ExitCode, Box<dyn Erro
     }
     let scene = HalfSpaceScene::from_file(&arguments.scene)?;
     let count = scene.steps.len().max(1);
-    let progress = Progress::new();
+    let progress = Progress::new(false);
     let report = dpana::solve_half_space(&scene, |number, problem, outcome| {
         progress.show(&format!("step {number} of {count}"));
         write_fields(arguments, (number, count), problem, outcome)

@@ -2,10 +2,12 @@
 
 mod cases;
 mod check;
+mod completions;
 mod half_space;
 mod import;
 mod interrupt;
 mod limit;
+mod man;
 mod outputs;
 mod progress;
 mod scene_file;
@@ -16,9 +18,11 @@ mod verify;
 
 pub(crate) use cases::{Cases, cases};
 pub(crate) use check::{Check, check};
+pub(crate) use completions::{Completions, completions};
 pub(crate) use half_space::{HalfSpace, half_space};
 pub(crate) use import::{Import, import};
 pub(crate) use limit::{Limit, limit};
+pub(crate) use man::{Man, man};
 pub(crate) use schema::schema;
 pub(crate) use solve::{Solve, solve};
 pub(crate) use study::{Study, study};

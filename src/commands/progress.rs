@@ -8,9 +8,10 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    pub(crate) fn new() -> Self {
+    /// A line on standard error, unless that is no terminal or the user wants it `quiet`.
+    pub(crate) fn new(quiet: bool) -> Self {
         Self {
-            watched: io::stderr().is_terminal(),
+            watched: !quiet && io::stderr().is_terminal(),
         }
     }
 

@@ -70,6 +70,9 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
+    /// Print no summary and no progress: the exit status says whether the state is certified.
+    #[arg(short, long)]
+    quiet: bool,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -90,7 +93,7 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     };
     let mut jumps = Vec::new();
     let mut states = States::new(arguments, axes, &scene, from.as_ref())?;
-    let progress = Progress::new();
+    let progress = Progress::new(arguments.quiet);
     let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
         if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
             let (number, all) = (step.number(), steps.at.len());
@@ -117,10 +120,12 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     if let Some(path) = arguments.table.as_ref().filter(|path| is_standard(path)) {
         write_table(path, &states.table)?;
     }
-    let outputs = || arguments.report.iter().chain(&arguments.table);
-    say(outputs(), report.summary().trim_end())?;
-    for jump in jumps {
-        say(outputs(), &jump)?;
+    if !arguments.quiet {
+        let outputs = || arguments.report.iter().chain(&arguments.table);
+        say(outputs(), report.summary().trim_end())?;
+        for jump in jumps {
+            say(outputs(), &jump)?;
+        }
     }
     Ok(match solution.status() {
         Status::Certified => ExitCode::SUCCESS,

@@ -58,7 +58,7 @@ pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     check_refinable(arguments, &scene)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("--out {}: {error}", arguments.out.display()))?;
-    let progress = Progress::new();
+    let progress = Progress::new(false);
     let study = dpana::study(&scene, &plan, |part| progress.show(&words(part)))?;
     drop(progress);
     let write = |name: &str, text: &str| replace_file(&arguments.out.join(name), text);

@@ -14,6 +14,7 @@ mod command_line;
 mod damaged_mesh;
 mod decks;
 mod hostile_input;
+mod manners;
 mod mesh_cures;
 mod shipped_scenes;
 mod streams;
