@@ -59,7 +59,7 @@ fn bodies_that_share_the_nodes_between_them_are_told_to_have_their_own() {
     says(
         &said,
         &[
-            "contacts[0].group",
+            "contacts[0].against.group",
             "[1, 4]",
             "belongs to 2 cells",
             "nodes of its own",
@@ -97,7 +97,10 @@ fn the_boundary_of_a_body_is_no_mesh_of_it() {
     let mesh = gmsh::parse(squares([5, 6, 6]), "face.msh").unwrap();
     let mut part = body("part", mesh, 1000.0, 0.3);
     part.model = None;
-    let said = solve(&scene(vec![part], vec![])).unwrap_err().to_string();
+    let pair = contact(["part", "5"], ["part", "5"], 0.3);
+    let said = solve(&scene(vec![part], vec![pair]))
+        .unwrap_err()
+        .to_string();
     says(
         &said,
         &[
