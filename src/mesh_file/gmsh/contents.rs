@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::lines::{Lines, quote};
+use super::fields::quote;
+use super::lines::Lines;
 use crate::body::CellKind;
 use crate::error::Error;
 

@@ -5,7 +5,7 @@
 
 use std::fmt::Display;
 
-use super::fields::{Fields, Order, Source};
+use super::fields::{Fields, Order, Source, error_at_byte, quote};
 use crate::error::Error;
 
 /// Steps through a file; empty lines are passed over.
@@ -206,24 +206,5 @@ impl<'a> Lines<'a> {
                 Some(_) => {}
             }
         }
-    }
-}
-
-/// An error at a byte, and at the line that it lies on as editors count them.
-pub(super) fn error_at_byte(bytes: &[u8], file: &str, at: usize, reason: &str) -> Error {
-    let before = &bytes[..at.min(bytes.len())];
-    Error::Mesh {
-        file: file.to_owned(),
-        line: 1 + before.iter().filter(|&&byte| byte == b'\n').count(),
-        reason: format!("byte {at}: {reason}"),
-    }
-}
-
-/// Text of the file as it is shown in a message: quoted, and never long.
-pub(super) fn quote(text: &str) -> String {
-    const SHOWN: usize = 40;
-    match text.char_indices().nth(SHOWN) {
-        None => format!("`{text}`"),
-        Some((cut, _)) => format!("`{}…`", &text[..cut]),
     }
 }

@@ -106,7 +106,7 @@ fn header(lines: &mut Lines<'_>) -> Result<Version, Error> {
         other => {
             return Err(lines.error(format!(
                 "MSH version {} is not read; expected 2.2 or 4.1",
-                lines::quote(other)
+                fields::quote(other)
             )));
         }
     };
@@ -117,7 +117,7 @@ fn header(lines: &mut Lines<'_>) -> Result<Version, Error> {
             if size != "8" {
                 return Err(lines.error(format!(
                     "numbers of {} bytes are not read from a binary file; expected 8",
-                    lines::quote(size)
+                    fields::quote(size)
                 )));
             }
             lines.read_order()?;
@@ -125,7 +125,7 @@ fn header(lines: &mut Lines<'_>) -> Result<Version, Error> {
         other => {
             return Err(lines.error(format!(
                 "file type {} is not known; expected 0 (ASCII) or 1 (binary)",
-                lines::quote(other)
+                fields::quote(other)
             )));
         }
     }
