@@ -23,6 +23,9 @@ use crate::body::{Facet, Mesh};
 /// Both bodies are there: one and one, less what round-off may take.
 const BOTH: f64 = 1.5;
 
+/// Part of a depth that is within half of any overlap as deep.
+const NEARLY_HALF: f64 = 0.499;
+
 /// Directions across a span in space.
 const DIRECTIONS: u32 = 8;
 
@@ -51,8 +54,9 @@ impl<'a> Overlaps<'a> {
     /// inside of the one.
     pub(super) fn encloses(&self, span: &Span, depth: f64) -> bool {
         let middle = (span.from + span.to) / 2.0;
-        let mut around = self.across(span).map(|way| middle + way * (0.5 * depth));
-        self.both(middle) && around.all(|point| self.both(point))
+        let along = (span.to - span.from).normalize();
+        let mut around = self.across(along).chain([along, -along]);
+        self.both(middle) && around.all(|way| self.both(middle + way * (NEARLY_HALF * depth)))
     }
 
     fn both(&self, point: Vector3<f64>) -> bool {
@@ -61,9 +65,8 @@ impl<'a> Overlaps<'a> {
         self.solids.iter().all(near) && times().sum::<f64>() > BOTH
     }
 
-    /// Unit vectors across the span, evenly around it.
-    fn across(&self, span: &Span) -> impl Iterator<Item = Vector3<f64>> + use<> {
-        let along = (span.to - span.from).normalize();
+    /// Unit vectors across a direction, evenly around it.
+    fn across(&self, along: Vector3<f64>) -> impl Iterator<Item = Vector3<f64>> + use<> {
         let plane = self.solids.iter().all(|solid| solid.mesh.dimension == 2);
         let mut least = Vector3::zeros();
         least[if plane { 2 } else { along.abs().imin() }] = 1.0;
@@ -189,6 +192,10 @@ mod tests {
             let overlaps = Overlaps::new(&upper, &lower);
             assert!(!overlaps.encloses(&span, 0.1), "{kind:?}");
             assert!(overlaps.encloses(&span, 0.005), "{kind:?}");
+            // From the top of the upper one to the bottom of the lower one, with its middle in what they share.
+            (span.from, span.to) = (Vector3::repeat(0.5), Vector3::repeat(0.5));
+            (span.from[up], span.to[up]) = (1.99, 0.0);
+            assert!(!overlaps.encloses(&span, 0.1), "{kind:?}");
         }
     }
 
