@@ -12,6 +12,7 @@
 use faer::linalg::solvers::Svd;
 use faer::{Mat, MatRef};
 
+use super::iterate::Motion;
 use super::{Failure, Outcome};
 use crate::error::Error;
 use crate::problem::{ContactProblem, Floating};
@@ -90,8 +91,10 @@ impl Felt {
     /// What was found, in amplitudes of all motions.
     fn of_all(&self, outcome: Outcome) -> Outcome {
         let all = |motion: &[f64]| times(self.motions.as_ref(), motion);
+        let motion = self.moved(&outcome.motion, &outcome.motion_left_out);
         Outcome {
-            motion: all(&outcome.motion),
+            motion: motion.amplitudes,
+            motion_left_out: motion.left_out,
             failure: outcome.failure.map(|failure| Failure {
                 motion: all(&failure.motion),
                 apparent: all(&failure.apparent),
@@ -99,6 +102,21 @@ impl Felt {
             }),
             ..outcome
         }
+    }
+}
+
+impl Felt {
+    /// `V (α′ + δ)` for amplitudes and what their rounding leaves out, without the rounding of products and sums.
+    fn moved(&self, amplitudes: &[f64], left_out: &[f64]) -> Motion {
+        let columns = self.motions.col_iter().zip(amplitudes.iter().zip(left_out));
+        let rest = Motion::of(vec![0.0; self.motions.nrows()]);
+        columns.fold(rest, |sum, (column, (amplitude, left_out))| {
+            let entries = || column.iter();
+            let whole: Vec<f64> = entries().map(|v| v * amplitude).collect();
+            let terms = entries().zip(&whole);
+            let lost = terms.map(|(v, product)| v.mul_add(*amplitude, -product) + v * left_out);
+            sum.plus(&whole).plus(&lost.collect::<Vec<_>>())
+        })
     }
 }
 
@@ -126,4 +144,61 @@ fn times(matrix: MatRef<'_, f64>, vector: &[f64]) -> Vec<f64> {
         }
     }
     product
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use faer::mat;
+
+    use super::*;
+    use crate::alternation::{Settings, Status, solve};
+    use crate::problem::Operator;
+
+    #[test]
+    fn a_motion_that_no_contact_feels_stays_zero_and_keeps_all_modes() {
+        // One smooth contact that feels (1, 1)/√2 of two modes alone, pressed by 2: −3 − 0.5 · 2 + (α_1 + α_2)/√2 = 0.
+        let operator = Operator::from_compliance(mat![[0.5]]).unwrap();
+        let free = vec![-3.0];
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![0.0], free, operator).unwrap();
+        let share = 0.5_f64.sqrt();
+        let modes = mat![[share, share]];
+        let floating = Floating::new(modes, vec![2.0 * share; 2]).unwrap();
+        let problem = problem.float(floating).unwrap();
+        let outcome = solve(&problem, &Settings::default()).unwrap();
+        assert_eq!(outcome.status, Status::Certified);
+        assert!((outcome.reaction[0] + 2.0).abs() < 1e-12);
+        assert_eq!(
+            (outcome.motion.len(), outcome.motion_left_out.len()),
+            (2, 2)
+        );
+        assert!(
+            (outcome.motion[0] - 4.0 * share).abs() < 1e-11,
+            "{:?}",
+            outcome.motion
+        );
+        assert!((outcome.motion[0] - outcome.motion[1]).abs() < 1e-14);
+    }
+
+    #[test]
+    fn what_rounding_left_out_is_carried_back() {
+        let (third, tiny) = (1.0 / 3.0, 1e-20);
+        let felt = Felt {
+            problem: ContactProblem::new(
+                &[0],
+                vec![0.0],
+                vec![0.0],
+                vec![0.0],
+                Operator::from_compliance(mat![[1.0]]).unwrap(),
+            )
+            .unwrap(),
+            motions: mat![[1.0], [third]],
+            back: mat![[1.0, third]],
+        };
+        let moved = felt.moved(&[3.0], &[tiny]);
+        assert_eq!(moved.amplitudes, [3.0, 1.0]);
+        // A third of a double is less than a third by what the product has lost.
+        let lost = third.mul_add(3.0, -1.0);
+        assert_eq!(moved.left_out, [tiny, lost + third * tiny]);
+    }
 }

@@ -4,6 +4,8 @@
 //! other side that faces it. A sample that lies beside the other side, or whose nearest point is another
 //! one that does not face it, is none.
 
+use std::sync::OnceLock;
+
 use nalgebra::Vector3;
 
 use super::rigid::see;
@@ -31,6 +33,8 @@ pub(super) struct Meeting {
     pub(super) samples: Vec<Sample>,
     /// Samples on each face of either side.
     of_face: [Vec<Vec<usize>>; 2],
+    /// How far the distance is off linear over each face of either side, in metre; once somebody asks.
+    curved: [OnceLock<Vec<f64>>; 2],
 }
 
 /// A point of one side and the point of the other that is nearest to it.
@@ -81,6 +85,7 @@ impl Meeting {
             skins,
             samples,
             of_face,
+            curved: Default::default(),
         }
     }
 
@@ -91,7 +96,14 @@ impl Meeting {
 
     /// How far the distance at the middle of a face is from the mean of those at its corners, in metre: what a facet
     /// does not follow of the other side. Zero unless all of these see the other side.
-    pub(super) fn curved(&self, side: usize, number: usize) -> f64 {
+    pub(super) fn curved(&self, side: usize, face: usize) -> f64 {
+        self.curved[side].get_or_init(|| {
+            let faces = 0..self.of_face[side].len();
+            faces.map(|face| self.off_linear(side, face)).collect()
+        })[face]
+    }
+
+    fn off_linear(&self, side: usize, number: usize) -> f64 {
         let Some(face) = self.skins.get(side).and_then(|skin| skin.faces.get(number)) else {
             return 0.0;
         };
