@@ -50,8 +50,10 @@ pub enum Error {
         accepted: &'static str,
     },
 
-    /// A sphere in front of a 2D body.
-    #[error("{place}: a sphere cannot touch a 2D body; expected a plane or a cylinder")]
+    /// A shape in front of a body of another dimension, such as a sphere of a 2D body.
+    #[error(
+        "{place}: a shape of another dimension than its body's; expected one that lives there, as planes do"
+    )]
     ObstacleDimension {
         /// The obstacle, such as `contacts[0].obstacle`.
         place: String,

@@ -115,7 +115,7 @@ impl<'a> Boundary<'a> {
         for facet in self.outward(&pair.facets, &format!("{}.facets", pair.place))? {
             let geometry = self.body.facet_geometry(&facet);
             let seen_from = obstacle.closest(&pair.place, self.centre(&facet))?;
-            if cosine(geometry.normal, seen_from.direction) > FACING {
+            if !seen_from.beyond && cosine(geometry.normal, seen_from.direction) > FACING {
                 facing.push((facet, geometry));
             }
         }

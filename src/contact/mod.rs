@@ -13,6 +13,7 @@
 //! | what straight facets leave of a round surface (C18) | `rounding`: `turning_edges` |
 //! | gaps that are nowhere less than the least distance (C20) | `lift` |
 //! | against a rigid obstacle | `on_obstacle`: `obstacle` |
+//! | how a body moves that carries obstacles | `rigid_body` |
 //! | against another surface, segment to segment (C7)–(C10) | `between_bodies`: `carrying_side`, `mortar` |
 
 mod between_bodies;
@@ -26,6 +27,7 @@ mod node;
 mod obstacle;
 mod on_obstacle;
 mod pair;
+mod rigid_body;
 mod rounding;
 mod surface;
 mod turn;
@@ -33,6 +35,7 @@ mod turning_edges;
 
 pub use node::{ContactNode, OppositeNodes};
 pub(crate) use obstacle::Closest;
-pub use obstacle::Obstacle;
+pub use obstacle::{Obstacle, Outline, Profile, Triangulated};
 pub use pair::{ContactPair, Coupling, Opposite};
+pub use rigid_body::{Component, RigidBody, RigidMotion};
 pub use surface::ContactSurface;

@@ -36,7 +36,11 @@ pub(super) fn on_obstacle(
     let (rounded, largest_bulge) = bulges.rounded(&every);
     for footing in footings(body, &facing, &bulges, gap)? {
         let node = footing.node;
-        match view.contact(footing, &scene.prescribed[pair.body])? {
+        let closest = view.closest(node, body.mesh.nodes[node])?;
+        if closest.beyond {
+            continue;
+        }
+        match view.contact(footing, closest, &scene.prescribed[pair.body])? {
             Some(contact) => contacts.push(contact),
             None => left_out.push(node),
         }
@@ -66,15 +70,9 @@ struct View<'a> {
 impl View<'_> {
     /// Refuses what does not go around the axis.
     fn check(&self) -> Result<(), Error> {
-        match (self.axis, self.obstacle) {
-            (Some(_), Obstacle::Cylinder { center, .. }) if center[0] != 0.0 => {
-                Err(Error::OutOfRange {
-                    place: format!("{}.obstacle.center[0]", self.pair.place),
-                    value: center[0],
-                    accepted: "0: beside an axisymmetric body a circle is a ball on the axis",
-                })
-            }
-            _ => Ok(()),
+        match self.axis {
+            Some(_) => self.obstacle.check_around(&self.pair.place),
+            None => Ok(()),
         }
     }
 
@@ -89,6 +87,7 @@ impl View<'_> {
         Ok(Closest {
             distance: closest.distance / along.abs(),
             direction: [0.0, along.signum(), 0.0],
+            ..closest
         })
     }
 
@@ -96,12 +95,12 @@ impl View<'_> {
     fn contact(
         &self,
         footing: Footing,
+        closest: Closest,
         prescribed: &[Option<f64>],
     ) -> Result<Option<ContactNode>, Error> {
         let (pair, node) = (self.pair, footing.node);
         let dimension = self.body.mesh.dimension;
         let position = self.body.mesh.nodes[node];
-        let closest = self.closest(node, position)?;
         let given = |node: usize, axis: usize| match axis < dimension {
             true => prescribed[node * dimension + axis],
             false => None,

@@ -101,7 +101,7 @@ impl ContactSurface {
     /// Motion of each contact's other side in global axes, from that of the obstacle per contact
     /// pair; zero between bodies, and for a pair without an entry. In metre.
     #[must_use]
-    pub fn obstacle_motions(&self, obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    pub(crate) fn obstacle_motions(&self, obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let of = |contact: &ContactNode| match contact.opposite {
             None => obstacles.get(contact.pair).copied().unwrap_or_default(),
             Some(_) => [0.0; 3],

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | Gmsh 2.2 and 4.1, ASCII and binary | `gmsh` |
 //! | Abaqus and CalculiX decks | `abaqus` |
+//! | STL, triangles of a rigid surface | `stl` |
 
 pub(crate) mod abaqus;
 pub mod gmsh;
+pub(crate) mod stl;

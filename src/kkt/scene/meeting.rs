@@ -8,10 +8,10 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
-use super::rigid::see;
+use super::rigid::Sight;
 use super::skin::{Place, Skin};
 use crate::body::Body;
-use crate::contact::{ContactPair, Obstacle, Opposite};
+use crate::contact::{ContactPair, Opposite};
 
 /// Part of the distance by which a foot may lie beside the perpendicular and be one.
 const UPRIGHT: f64 = 1e-3;
@@ -59,10 +59,11 @@ impl Meeting {
             skins.extend(skin(*body, facets));
         }
         let samples: Vec<Sample> = match (&pair.opposite, &skins[..]) {
-            (Opposite::Obstacle(obstacle), [own]) => own
-                .samples()
-                .filter_map(|place| face(place, obstacle))
-                .collect(),
+            (Opposite::Obstacle(obstacle), [own]) => {
+                let sight = Sight::new(obstacle);
+                let places = own.samples();
+                places.filter_map(|place| face(place, &sight)).collect()
+            }
             (_, [first, second]) => {
                 let there = first.samples().filter_map(|place| meet(place, second));
                 let back = second.samples().filter_map(|place| meet(place, first));
@@ -157,8 +158,8 @@ impl Sample {
 }
 
 /// A place and the obstacle in front of it.
-fn face(place: Place, obstacle: &Obstacle) -> Option<Sample> {
-    let (distance, towards) = see(obstacle, place.position)?;
+fn face(place: Place, sight: &Sight<'_>) -> Option<Sample> {
+    let (distance, towards) = sight.see(place.position)?;
     (place.normal.dot(&towards) > FACING).then_some(Sample {
         places: [Some(place), None],
         towards,

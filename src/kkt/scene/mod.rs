@@ -22,6 +22,7 @@ mod seat;
 mod skin;
 mod tile;
 mod tree;
+mod triangles;
 
 pub use measure::Measure;
 
@@ -29,7 +30,7 @@ use super::body_state::BodyState;
 use super::resultant::nodal_lengths;
 use super::sides::{block, check_sides};
 use crate::body::Body;
-use crate::contact::{ContactPair, ContactSurface};
+use crate::contact::{ContactPair, ContactSurface, RigidMotion};
 use crate::error::{Error, check_length};
 use distances::Distances;
 use forces::{Forces, Unanswered};
@@ -62,8 +63,8 @@ pub struct SceneGeometry {
 /// What acts on the pairs beside what the bodies know.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
-    /// Motion of the obstacle per pair, in metre; missing ones stand still.
-    pub obstacles: &'a [[f64; 3]],
+    /// Motion of the obstacle per pair; missing ones stand still.
+    pub obstacles: &'a [RigidMotion],
     /// What is added to all gaps of a pair, in metre; missing ones are zero.
     pub openings: &'a [f64],
     /// The residual that the laws were solved to.
