@@ -7,16 +7,17 @@ use faer::Mat;
 
 use super::CondensationWork;
 use super::PartMotion;
+use super::carried::Carried;
 use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::load_case::Action;
-use super::rigid_bodies::{floating, part_motions};
+use super::rigid_bodies::{floating, part_motions, rigid_parts};
 use super::room::dense_bytes;
 use super::supported::{OfInterface, SupportedBody};
 use crate::body;
 use crate::body::Body;
-use crate::contact::{ContactPair, ContactSurface};
+use crate::contact::{ContactPair, ContactSurface, RigidBody, RigidMotion};
 use crate::error::{Error, check_length};
 use crate::problem::{ContactProblem, Operator};
 
@@ -27,6 +28,7 @@ pub struct Condensed {
     pub(super) problem: ContactProblem,
     pub(super) bodies: Vec<CondensedBody>,
     pub(super) interfaces: Arc<[Interface]>,
+    pub(super) carried: Carried,
     pub(super) work: CondensationWork,
 }
 
@@ -39,6 +41,19 @@ impl Condensed {
     /// [`ContactSurface::new`] refuse, a stiffness that is not positive definite. A rigid
     /// motion that the supports leave free is none: see [`ContactProblem::floating`].
     pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
+        Self::with_rigid(bodies, pairs, &[])
+    }
+
+    /// The same with rigid bodies that carry the obstacles of some pairs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new), a motion or force that is not finite.
+    pub fn with_rigid(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
         let start = Instant::now();
         let mut prescribed = Vec::with_capacity(bodies.len());
         for body in bodies {
@@ -46,7 +61,7 @@ impl Condensed {
             prescribed.push(body::prescribed(body)?);
         }
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
-        Self::on_surface(bodies, pairs, surface, prescribed, start)
+        Self::on_surface(bodies, (pairs, rigid), surface, prescribed, start)
     }
 
     /// The same bodies on a contact surface that is found already, and maybe changed since.
@@ -64,12 +79,12 @@ impl Condensed {
             .iter()
             .map(body::prescribed)
             .collect::<Result<_, _>>()?;
-        Self::on_surface(bodies, pairs, surface, prescribed, start)
+        Self::on_surface(bodies, (pairs, &[]), surface, prescribed, start)
     }
 
     fn on_surface(
         bodies: &[Body],
-        pairs: &[ContactPair],
+        (pairs, rigid): (&[ContactPair], &[RigidBody]),
         surface: ContactSurface,
         prescribed: Vec<Vec<Option<f64>>>,
         start: Instant,
@@ -102,17 +117,31 @@ impl Condensed {
         let mut problem = join(&surface, pairs, &interfaces, &condensed, of_interfaces)?;
         let groundings: Vec<_> = condensed.iter().map(CondensedBody::grounding).collect();
         let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
-        if let Some(floating) = floating(&surface, &groundings, &loads, dimension)? {
+        let carried = Carried::new(rigid, bodies, &surface);
+        if let Some(floating) = floating(&surface, &groundings, &loads, dimension, &carried)? {
             problem = problem.float(floating)?;
         }
         work.condensation_seconds += start.elapsed().as_secs_f64();
-        Ok(Self {
+        let mut condensed = Self {
             surface: Arc::new(surface),
             problem,
             bodies: condensed,
             interfaces: interfaces.into(),
+            carried,
             work,
-        })
+        };
+        if !rigid.is_empty() {
+            condensed.place_rigid()?;
+        }
+        Ok(condensed)
+    }
+
+    /// Moves rigid bodies by what is given of their motion.
+    fn place_rigid(&mut self) -> Result<(), Error> {
+        let none = vec![0.0; self.problem.unknowns()];
+        let free = self.problem.free_displacement().to_vec();
+        self.problem = self.problem.step(free, self.reference(&[], &none))?;
+        Ok(())
     }
 
     /// The contact surface.
@@ -133,11 +162,82 @@ impl Condensed {
         &self.bodies
     }
 
-    /// How the bodies' free parts move under an amplitude per free mode, in metre.
+    /// How the bodies' free parts move under an amplitude per free mode, in metre; rigid bodies come last,
+    /// numbered after the others.
     #[must_use]
     pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
         let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
-        part_motions(&groundings, motion)
+        let mut parts = part_motions(&groundings, motion);
+        parts.extend(rigid_parts(
+            &self.carried,
+            self.bodies.len(),
+            self.of_rigid(motion),
+        ));
+        parts
+    }
+
+    /// The amplitudes of rigid bodies, which come last.
+    fn of_rigid<'a>(&self, motion: &'a [f64]) -> &'a [f64] {
+        let elastic = motion.len().saturating_sub(self.carried.modes());
+        &motion[elastic..]
+    }
+
+    /// The rigid bodies.
+    #[must_use]
+    pub fn rigid_bodies(&self) -> &[RigidBody] {
+        self.carried.bodies()
+    }
+
+    /// Their motion under an amplitude per free mode of the problem, in metre.
+    #[must_use]
+    pub fn rigid_motions(&self, motion: &[f64]) -> Vec<RigidMotion> {
+        self.carried.motions(self.of_rigid(motion))
+    }
+
+    /// Given force, in newton, and moment, in newton metre, on the free components of each.
+    #[must_use]
+    pub fn rigid_forces(&self) -> Vec<[f64; 6]> {
+        let bodies = 0..self.carried.bodies().len();
+        bodies.map(|body| self.carried.forces(body)).collect()
+    }
+
+    /// Displacement of each contact's other side in global axes, in metre, where that is rigid: of plain
+    /// obstacles from their motion per contact pair, of rigid bodies under an amplitude per free mode.
+    #[must_use]
+    pub fn other_sides(&self, obstacles: &[[f64; 3]], motion: &[f64]) -> Vec<[f64; 3]> {
+        let mut moved = self.surface.obstacle_motions(obstacles);
+        self.carried.put(&self.rigid_motions(motion), &mut moved);
+        moved
+    }
+
+    /// The part of it that the contact problem finds: that of the free components of rigid bodies; empty where there
+    /// are none.
+    #[must_use]
+    pub fn found_sides(&self, motion: &[f64]) -> Vec<[f64; 3]> {
+        if self.carried.modes() == 0 {
+            return Vec::new();
+        }
+        let mut moved = vec![[0.0; 3]; self.surface.nodes.len()];
+        let motions = self.carried.freely(self.of_rigid(motion));
+        self.carried.put(&motions, &mut moved);
+        moved
+    }
+
+    /// Motion of the obstacle per contact pair, from that of plain ones, in metre, and an amplitude per free
+    /// mode; as many as there are entries in `obstacles`, and at least as pairs with rigid bodies need.
+    #[must_use]
+    pub fn pair_motions(&self, obstacles: &[[f64; 3]], motion: &[f64]) -> Vec<RigidMotion> {
+        let along = |translation: &[f64; 3]| RigidMotion {
+            translation: *translation,
+            ..RigidMotion::default()
+        };
+        let mut pairs: Vec<RigidMotion> = obstacles.iter().map(along).collect();
+        let carried = self.carried.bodies().iter().flat_map(|body| &body.pairs);
+        let needed = carried.map(|pair| pair + 1).max().unwrap_or(0);
+        pairs.resize(needed.max(pairs.len()), RigidMotion::default());
+        self.carried
+            .put_pairs(&self.rigid_motions(motion), &mut pairs);
+        pairs
     }
 
     /// What it took.

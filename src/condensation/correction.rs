@@ -42,11 +42,12 @@ impl Condensed {
         Ok(ahead)
     }
 
-    /// Whether (C24) is for these bodies: held by their supports, and with every contact unknown in the factor.
+    /// Whether (C24) is for these bodies: held by their supports, as rigid ones are, and with every contact unknown in the factor.
     #[must_use]
     pub fn corrects(&self) -> bool {
         let mut bodies = self.bodies.iter().map(|body| &body.factored);
-        bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
+        self.carried.modes() == 0
+            && bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
     }
 
     /// The first of (C24): displacements under a reaction in newton, in place, in metre.

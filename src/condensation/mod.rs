@@ -16,11 +16,13 @@
 //! | where contacts see less than their nodes: a border (C17) | `border` |
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `load_case`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
+//! | bodies without compliance (C31) | `carried` |
 //! | recovered body (C6), set right where the factor has few digits (C24) | `condensed_body`, `correction` |
 //! | room for what is dense | `room` |
 //! | the problem of a load step (C13) | `load_step` |
 
 mod border;
+mod carried;
 mod columns;
 mod condensed;
 mod condensed_body;

@@ -28,6 +28,13 @@ pub enum Driven {
         /// Its number among the body's supports.
         index: usize,
     },
+    /// What is given of a component of a rigid body: its motion, or the force on it.
+    Rigid {
+        /// Number of the rigid body.
+        body: usize,
+        /// Number of the component.
+        component: usize,
+    },
 }
 
 /// What acts on bodies as a function of factors (C15).
@@ -36,8 +43,8 @@ pub struct Superposition {
     driven: Vec<Driven>,
     /// f₀, u₀ and their answers, per body.
     rest: Vec<Action>,
-    /// f_k or u_k and its answer, per driven load or support.
-    parts: Vec<Action>,
+    /// f_k or u_k and its answer, per driven load or support; none of a rigid body.
+    parts: Vec<Option<Action>>,
     supports: Vec<Vec<Support>>,
     dimension: usize,
 }
@@ -58,18 +65,21 @@ impl Condensed {
         driven: &[Driven],
     ) -> Result<Superposition, Error> {
         check_length("bodies", self.bodies.len(), bodies.len())?;
-        driven.iter().try_for_each(|driven| driven.check(bodies))?;
+        let rigid = self.carried.bodies().len();
+        (driven.iter()).try_for_each(|driven| driven.check(bodies, rigid))?;
         let mut rest = Vec::with_capacity(bodies.len());
         for (at, body) in bodies.iter().enumerate() {
-            rest.push(match driven.iter().any(|driven| driven.body() == at) {
-                false => self.bodies[at].action.clone(),
-                true => self.answer(at, body, |acts| !driven.contains(&acts)),
-            });
+            rest.push(
+                match driven.iter().any(|driven| driven.body() == Some(at)) {
+                    false => self.bodies[at].action.clone(),
+                    true => self.answer(at, body, |acts| !driven.contains(&acts)),
+                },
+            );
         }
         let mut parts = Vec::with_capacity(driven.len());
         for &part in driven {
-            let at = part.body();
-            parts.push(self.answer(at, &bodies[at], |acts| acts == part));
+            let answer = |at: usize| self.answer(at, &bodies[at], |acts| acts == part);
+            parts.push(part.body().map(answer));
         }
         Ok(Superposition {
             driven: driven.to_vec(),
@@ -95,6 +105,11 @@ impl Condensed {
 }
 
 impl Superposition {
+    /// What has a factor.
+    pub(super) fn driven(&self) -> &[Driven] {
+        &self.driven
+    }
+
     /// What acts on every body under a factor per driven load or support.
     ///
     /// # Errors
@@ -107,7 +122,9 @@ impl Superposition {
         let mut supports = self.supports.clone();
         let mut actions = self.rest.clone();
         for ((driven, part), &factor) in self.driven.iter().zip(&self.parts).zip(factors) {
-            actions[driven.body()].add(factor, part);
+            if let (Some(body), Some(part)) = (driven.body(), part) {
+                actions[body].add(factor, part);
+            }
             if let Driven::Support { body, index } = *driven {
                 supports[body][index] = supports[body][index].scaled(factor);
             }
@@ -122,12 +139,17 @@ impl Superposition {
 }
 
 impl Driven {
-    fn check(self, bodies: &[Body]) -> Result<(), Error> {
-        let body = bodies.get(self.body());
-        let (what, index, count) = match (self, body) {
-            (_, None) => ("body", self.body(), bodies.len()),
-            (Self::Load { index, .. }, Some(body)) => ("load", index, body.loads.len()),
-            (Self::Support { index, .. }, Some(body)) => ("support", index, body.supports.len()),
+    fn check(self, bodies: &[Body], rigid: usize) -> Result<(), Error> {
+        let (what, index, count) = match self {
+            Self::Rigid { body, .. } => ("rigid body", body, rigid),
+            Self::Load { body, index } => match bodies.get(body) {
+                None => ("body", body, bodies.len()),
+                Some(of_body) => ("load", index, of_body.loads.len()),
+            },
+            Self::Support { body, index } => match bodies.get(body) {
+                None => ("body", body, bodies.len()),
+                Some(of_body) => ("support", index, of_body.supports.len()),
+            },
         };
         match index < count {
             true => Ok(()),
@@ -140,9 +162,11 @@ impl Driven {
         }
     }
 
-    fn body(self) -> usize {
+    /// The elastic body that it acts on.
+    fn body(self) -> Option<usize> {
         match self {
-            Self::Load { body, .. } | Self::Support { body, .. } => body,
+            Self::Load { body, .. } | Self::Support { body, .. } => Some(body),
+            Self::Rigid { .. } => None,
         }
     }
 }

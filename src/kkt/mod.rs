@@ -14,6 +14,7 @@
 //! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
 //! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
 //! (K8)  Rᵀ t + e = 0                                            equilibrium of floating bodies
+//! (K21) contact forces + given force = 0                        equilibrium of rigid bodies
 //! (K9)  external work = elastic + dissipation + closure          where the work of a load step went
 //! ```
 //!
@@ -37,6 +38,7 @@ mod judge;
 mod ledger;
 mod natural_map;
 mod resultant;
+mod rigid_balance;
 mod scales;
 mod scene;
 mod sides;
@@ -59,6 +61,7 @@ pub use impossibility::impossibility;
 pub use judge::Judge;
 pub(crate) use ledger::{Account, ContactStep, Ledger};
 pub(crate) use resultant::Resultant;
+pub use rigid_balance::{RigidBalance, rigid_balance};
 pub use scene::{Measure, PairFit, SceneGeometry, Surroundings};
 pub(crate) use sides::{global_force, relative_displacement};
 pub(crate) use support_forces::support_forces;

@@ -7,12 +7,11 @@ use rayon::prelude::*;
 use super::{Acting, Setup};
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
-use crate::body::Body;
 use crate::condensation::{Driven, Superposition};
-use crate::contact::{ContactPair, Opposite};
+use crate::contact::Opposite;
 use crate::error::{Error, check_finite};
 use crate::report::{Cell, Table};
-use crate::scene::{Scene, driven, nearest};
+use crate::scene::{Mechanics, Scene, driven, nearest};
 
 /// A quantity of a scene and the values that it takes.
 ///
@@ -20,7 +19,7 @@ use crate::scene::{Scene, driven, nearest};
 /// |---|---|
 /// | `friction`, `contacts[0].friction` | coefficient, of all contacts or of one |
 /// | `gap`, `contacts[0].gap` | added to the gap before loading, `gap` of the contact included, in metre |
-/// | `bodies[0].loads[1]`, `bodies[0].supports[0]` | factor |
+/// | `bodies[0].loads[1]`, `bodies[0].supports[0]`, `rigid_bodies[0].force[1]` | factor |
 /// | `contacts[0].x`, `.y`, `.z` | how far the obstacle has moved, in metre |
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variation {
@@ -87,7 +86,7 @@ pub fn cases_watched(
             accepted: "a scene without steps, of which `cases` solves many".to_owned(),
         }));
     }
-    let quantities = Quantities::new(&mechanics.bodies, &mechanics.contacts);
+    let quantities = Quantities::new(&mechanics);
     let drives = quantities.find_all(variations)?;
     let friction: Vec<f64> = mechanics
         .contacts
@@ -172,13 +171,15 @@ impl Drive {
 struct Quantities(Vec<(String, Drive)>);
 
 impl Quantities {
-    fn new(bodies: &[Body], pairs: &[ContactPair]) -> Self {
+    fn new(mechanics: &Mechanics) -> Self {
+        let (bodies, pairs) = (&mechanics.bodies, &mechanics.contacts);
+        let rigid = &mechanics.rigid_bodies;
         let all: Vec<usize> = (0..pairs.len()).collect();
         let mut known = vec![
             ("friction".to_owned(), Drive::Friction(all.clone())),
             ("gap".to_owned(), Drive::Gap(all)),
         ];
-        let driven = driven(bodies).into_iter();
+        let driven = driven(bodies, rigid).into_iter();
         known.extend(driven.map(|(place, driven)| (place, Drive::Factor(driven))));
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         for (at, pair) in pairs.iter().enumerate() {
@@ -187,7 +188,8 @@ impl Quantities {
                 Drive::Friction(vec![at]),
             ));
             known.push((format!("contacts[{at}].gap"), Drive::Gap(vec![at])));
-            if matches!(pair.opposite, Opposite::Obstacle(_)) {
+            let carried = rigid.iter().any(|body| body.pairs.contains(&at));
+            if matches!(pair.opposite, Opposite::Obstacle(_)) && !carried {
                 let axes = ["x", "y", "z"].into_iter().take(dimension).enumerate();
                 known.extend(axes.map(|(axis, name)| {
                     (format!("contacts[{at}].{name}"), Drive::Obstacle(at, axis))

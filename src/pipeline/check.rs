@@ -34,7 +34,7 @@ pub fn check(scene: &Scene) -> Result<Checked, Error> {
 
 fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
     let bodies = &mechanics.bodies;
-    let rigid = RigidBodies::new(bodies, &mechanics.contacts)?;
+    let rigid = RigidBodies::new(bodies, &mechanics.contacts, &mechanics.rigid_bodies)?;
     let dense_bytes = dense_bytes(rigid.surface())?;
     check_supports(&mechanics)?;
     let free_modes = bodies.iter().map(|body| {

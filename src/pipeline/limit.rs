@@ -2,7 +2,7 @@
 
 use crate::body::{Body, Load};
 use crate::condensation::RigidBodies;
-use crate::contact::ContactPair;
+use crate::contact::{ContactPair, RigidBody};
 use crate::error::Error;
 use crate::limit::{LeastFriction, Limit, RigidContacts};
 use crate::report::{Beyond, Limits, LoadLimit};
@@ -50,6 +50,7 @@ pub fn limit(scene: &Scene) -> Result<Limits, Error> {
     let Mechanics {
         bodies,
         contacts: pairs,
+        rigid_bodies,
         history,
         ..
     } = scene.mechanics()?;
@@ -60,11 +61,16 @@ pub fn limit(scene: &Scene) -> Result<Limits, Error> {
             accepted: "a scene without steps, whose loads act as they stand".to_owned(),
         }));
     }
-    limits(&scene.title, &bodies, &pairs).map_err(|error| scene.locate(error))
+    limits(&scene.title, &bodies, &pairs, &rigid_bodies).map_err(|error| scene.locate(error))
 }
 
-fn limits(title: &str, bodies: &[Body], pairs: &[ContactPair]) -> Result<Limits, Error> {
-    let rigid = RigidBodies::new(bodies, pairs)?;
+fn limits(
+    title: &str,
+    bodies: &[Body],
+    pairs: &[ContactPair],
+    rigid_bodies: &[RigidBody],
+) -> Result<Limits, Error> {
+    let rigid = RigidBodies::new(bodies, pairs, rigid_bodies)?;
     let modes = rigid.modes();
     if modes.ncols() == 0 {
         return Err(Error::NotAccepted {
@@ -78,29 +84,27 @@ fn limits(title: &str, bodies: &[Body], pairs: &[ContactPair]) -> Result<Limits,
     let friction = nodes.iter().map(|contact| pairs[contact.pair].friction);
     let case = Case {
         bodies,
+        rigid_bodies,
         contacts: RigidContacts::new(&tangents, friction.collect(), modes)?,
         rigid,
     };
-    let forces: Vec<_> = bodies.iter().map(body::load_vector).collect();
-    let total = case.rigid.load(&forces);
+    let total = case.total();
     let mut loads = Vec::new();
-    for (index, body) in bodies.iter().enumerate() {
-        for (number, load) in body.loads.iter().enumerate() {
-            // Heat and initial stress are in equilibrium with themselves.
-            if load.stresses() {
-                continue;
-            }
-            let growing = case.alone(index, load);
-            if growing.iter().any(|e| *e != 0.0) {
-                let fixed: Vec<f64> = total.iter().zip(&growing).map(|(t, g)| t - g).collect();
-                let beyond = case.beyond(&fixed, &growing)?;
-                loads.push(LoadLimit {
-                    place: format!("bodies[{index}].loads[{number}]"),
-                    body: body.name.clone(),
-                    kind: kind(load),
-                    beyond,
-                });
-            }
+    for Growing {
+        works,
+        place,
+        body,
+        kind,
+    } in case.growing()
+    {
+        if works.iter().any(|e| *e != 0.0) {
+            let fixed: Vec<f64> = total.iter().zip(&works).map(|(t, g)| t - g).collect();
+            loads.push(LoadLimit {
+                place,
+                body,
+                kind,
+                beyond: case.beyond(&fixed, &works)?,
+            });
         }
     }
     let least_friction = case.least_friction(&total, pairs)?;
@@ -130,11 +134,67 @@ fn kind(load: &Load) -> &'static str {
 /// The scene as rigid bodies.
 struct Case<'a> {
     bodies: &'a [Body],
+    rigid_bodies: &'a [RigidBody],
     rigid: RigidBodies,
     contacts: RigidContacts,
 }
 
+/// A load that grows alone.
+struct Growing {
+    /// Its work on every free mode.
+    works: Vec<f64>,
+    place: String,
+    body: String,
+    kind: &'static str,
+}
+
 impl Case<'_> {
+    /// Number of each rigid body and free component.
+    fn on_rigid(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let bodies = self.rigid_bodies.iter().enumerate();
+        bodies.flat_map(|(body, of)| of.free().map(move |component| (body, component)))
+    }
+
+    /// Work of all loads on every free mode.
+    fn total(&self) -> Vec<f64> {
+        let forces: Vec<_> = self.bodies.iter().map(body::load_vector).collect();
+        let mut total = self.rigid.load(&forces);
+        for (body, component) in self.on_rigid() {
+            let more = self.rigid.rigid_load(body, component);
+            total.iter_mut().zip(more).for_each(|(e, more)| *e += more);
+        }
+        total
+    }
+
+    /// The loads one by one; heat and initial stress are in equilibrium with themselves.
+    fn growing(&self) -> Vec<Growing> {
+        let mut growing = Vec::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let loads = body.loads.iter().enumerate();
+            growing.extend(
+                loads
+                    .filter(|(_, load)| !load.stresses())
+                    .map(|(number, load)| Growing {
+                        works: self.alone(index, load),
+                        place: format!("bodies[{index}].loads[{number}]"),
+                        body: body.name.clone(),
+                        kind: kind(load),
+                    }),
+            );
+        }
+        let dimension = self.bodies.first().map_or(3, |body| body.mesh.dimension);
+        growing.extend(self.on_rigid().map(|(index, component)| {
+            let body = &self.rigid_bodies[index];
+            Growing {
+                works: self.rigid.rigid_load(index, component),
+                place: body.component_place(component, dimension),
+                body: body.name.clone(),
+                kind: if component < 3 { "force" } else { "moment" },
+            }
+        }));
+        growing
+    }
+
     /// Work of one load alone on every free mode.
     fn alone(&self, index: usize, load: &Load) -> Vec<f64> {
         let forces = self.bodies.iter().enumerate().map(|(k, body)| {
@@ -205,7 +265,11 @@ impl Case<'_> {
         let apparent = self.contacts.failure(motion);
         let parts = self.rigid.motions(&apparent.motion);
         let opens_only = apparent.sliding.is_empty() && !apparent.opening.is_empty();
-        report::motions(self.bodies, &parts, !opens_only)
+        report::motions(
+            &report::names(self.bodies, self.rigid_bodies),
+            &parts,
+            !opens_only,
+        )
     }
 
     fn holds(&self, load: &[f64], reaction: &[f64]) -> Result<bool, Error> {

@@ -25,7 +25,7 @@ use crate::kkt::{PairFit, SceneGeometry};
 use crate::report;
 use crate::report::vtu::BodyFields;
 use crate::report::{
-    Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
+    Continuity, Picture, Report, ReportParts, RigidParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
 use crate::{alternation, body, kkt, validity};
@@ -67,11 +67,12 @@ impl Setup {
         let Mechanics {
             bodies,
             contacts: pairs,
+            rigid_bodies,
             settings,
             notes,
             ..
         } = mechanics;
-        let condensed = Condensed::new(&bodies, &pairs)?;
+        let condensed = Condensed::with_rigid(&bodies, &pairs, &rigid_bodies)?;
         let geometry = SceneGeometry::new(&bodies, &pairs, condensed.surface())?;
         let acting = Acting {
             openings: pairs.iter().map(|pair| pair.gap).collect(),
@@ -259,7 +260,8 @@ impl Solution {
     ///
     /// None for a solution of [`solve`].
     pub fn report(&self) -> Result<Report, Error> {
-        let work = self.setup.condensed.work();
+        let condensed = &self.setup.condensed;
+        let work = condensed.work();
         let halving = self.step.as_ref().and_then(SolvedStep::halving);
         let halving: Vec<String> = halving.and_then(Halving::note).into_iter().collect();
         let failure = self.outcome.failure.iter();
@@ -271,6 +273,12 @@ impl Solution {
             .body_states(&self.outcome.reaction, &self.displacements);
         let support_forces = states.iter().map(kkt::support_forces);
         let support_forces: Vec<_> = support_forces.collect::<Result<_, _>>()?;
+        let motion = &self.outcome.motion;
+        let rigid_motions = condensed.rigid_motions(motion);
+        let sides = match condensed.rigid_bodies() {
+            [] => Vec::new(),
+            _ => condensed.other_sides(&self.setup.acting.obstacles, motion),
+        };
         let parts = ReportParts {
             title: &self.setup.title,
             units: &self.setup.units,
@@ -282,6 +290,11 @@ impl Solution {
             displacements: &self.displacements,
             motions: &motions,
             balances: &self.measured.balances,
+            rigid: RigidParts {
+                bodies: condensed.rigid_bodies(),
+                motions: &rigid_motions,
+                balances: &self.measured.rigid,
+            },
             extremes: self.extremes(),
             support_forces: &support_forces,
             departure: self.measured.departure,
@@ -294,7 +307,7 @@ impl Solution {
                 condensation: work.condensation_seconds,
                 recovery: self.recovery_seconds,
             },
-            origins: self.step.as_ref().map_or(&[], |step| step.origins()),
+            origins: self.step.as_ref().map_or(&sides, |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
             notes: &[],
         };
@@ -397,11 +410,22 @@ impl Solution {
     ///
     /// [`Error::NotAccepted`] for bodies in 3D.
     pub fn to_svg(&self) -> Result<String, Error> {
-        let obstacle = |pair: &ContactPair| match pair.opposite {
-            Opposite::Obstacle(obstacle) => Some(obstacle),
+        let (condensed, acting) = (&self.setup.condensed, &self.setup.acting);
+        let motions = condensed.pair_motions(&acting.obstacles, &self.outcome.motion);
+        let obstacle = |(at, pair): (usize, &ContactPair)| match &pair.opposite {
+            Opposite::Obstacle(obstacle) => Some((
+                obstacle.clone(),
+                motions.get(at).copied().unwrap_or_default(),
+            )),
             Opposite::Surface { .. } => None,
         };
-        let obstacles: Vec<_> = self.setup.pairs.iter().filter_map(obstacle).collect();
+        let obstacles: Vec<_> = self
+            .setup
+            .pairs
+            .iter()
+            .enumerate()
+            .filter_map(obstacle)
+            .collect();
         Picture {
             report: &self.report()?,
             bodies: &self.setup.bodies,
@@ -427,10 +451,18 @@ impl Solution {
             stresses: &self.nodal_stresses(),
             facets: &self.setup.condensed.surface().facets,
             pairs: &self.setup.pairs,
-            obstacles: &self.setup.acting.obstacles,
+            obstacles: &self.drawn_motions(),
             friction: problem.friction(),
             initial_gap: problem.initial_gap(),
         })
+    }
+
+    /// Displacement of the obstacle per pair, of a rigid body of its reference point, in metre.
+    #[cfg(feature = "cli")]
+    fn drawn_motions(&self) -> Vec<[f64; 3]> {
+        let (condensed, acting) = (&self.setup.condensed, &self.setup.acting);
+        let motions = condensed.pair_motions(&acting.obstacles, &self.outcome.motion);
+        motions.iter().map(|motion| motion.translation).collect()
     }
 
     /// Stress per body and node, xx, yy, zz, yz, xz, xy, in pascal.

@@ -53,7 +53,10 @@ pub fn solve_steps(
 ) -> Result<Solution, Error> {
     let at_scene = |error| scene.locate(error);
     let mut mechanics = scene.mechanics()?;
-    let bodies = Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts));
+    let bodies = match mechanics.rigid_bodies.as_slice() {
+        [] => Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts)),
+        rigid => Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts, rigid)),
+    };
     let history = std::mem::take(&mut mechanics.history);
     let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let Some(&last) = history.instants().last() else {
@@ -193,7 +196,7 @@ impl Past {
         };
         let (path, halving) = course.step(&self.state, from, course.history.instants()[steps])?;
         let reached = path.last;
-        let origins = self.state.origins(&course.setup, &reached.state);
+        let origins = self.state.origins(&reached.state);
         let step = SolvedStep {
             number: steps + 1,
             at: reached.at,

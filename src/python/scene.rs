@@ -122,7 +122,11 @@ impl StatedScene {
                 .bodies
                 .first()
                 .map_or(3, |body| body.mesh.dimension);
-            let condensed = Condensed::new(&mechanics.bodies, &mechanics.contacts);
+            let condensed = Condensed::with_rigid(
+                &mechanics.bodies,
+                &mechanics.contacts,
+                &mechanics.rigid_bodies,
+            );
             let condensed = condensed.map_err(|error| self.0.locate(error))?;
             Ok(Problem::of_scene(&condensed, dimension))
         });

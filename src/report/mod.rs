@@ -16,6 +16,7 @@
 //! | `certificate` | natural-map residual, every law's worst violation and where, bipotential gap; per body the balance of forces and moments |
 //! | `step` | of a history: number, instant, values of the tables, ledger of the step and since the start, what halving it changed |
 //! | `totals` | counts of open, stick and slip, resultants, contact area, slip area, peak pressure; the same per contact pair, and what its sides exchange |
+//! | `rigid_bodies` | of each: motion of the reference point, contact force and moment there, what is given, what is left |
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
 //! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
@@ -42,6 +43,7 @@ mod notes;
 mod page;
 mod picture;
 mod quality;
+mod rigid_body;
 mod shortfall;
 mod step;
 #[cfg(feature = "cli")]
@@ -76,13 +78,14 @@ pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_
 pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
 pub use motion::ReportedMotion;
-pub(crate) use motion::{motions, significant};
+pub(crate) use motion::{motions, names, significant};
 #[cfg(feature = "cli")]
 pub use page::Page;
 #[cfg(feature = "cli")]
 pub(crate) use page::PageState;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
+pub use rigid_body::{ReportedRigidBody, RigidParts};
 pub use shortfall::ReportedShortfall;
 pub(crate) use step::ReportedHalving;
 pub use step::{ReportedLedger, ReportedStep};
@@ -137,6 +140,9 @@ pub struct Report {
     pub extremes: ReportedExtremes,
     /// What every support carries.
     pub supports: Vec<SupportForce>,
+    /// How every rigid body moved and what acts on it; absent where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rigid_bodies: Vec<ReportedRigidBody>,
     /// How far pressure and stress can be trusted by eye.
     pub quality: Quality,
     /// What it took.
@@ -228,6 +234,8 @@ pub struct ReportParts<'a> {
     pub motions: &'a [PartMotion],
     /// Equilibrium of each body in that displacement.
     pub balances: &'a [kkt::Balance],
+    /// Rigid bodies, their motions and equilibrium.
+    pub rigid: RigidParts<'a>,
     /// Its extremes, body by body.
     pub extremes: &'a [body::Extremes],
     /// Force of every support on its body in global axes, body by body, in newton.
@@ -278,6 +286,7 @@ impl Report {
             totals: Totals::new(parts, &exchanges, &forces),
             extremes: ReportedExtremes::new(parts),
             supports: extremes::support_forces(parts),
+            rigid_bodies: ReportedRigidBody::all(&parts.rigid, parts.dimension()),
             quality: Quality::new(parts, &contacts),
             work: ReportedWork::new(parts),
             history: parts

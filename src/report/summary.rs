@@ -130,6 +130,19 @@ fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
         let (value, place) = (number(largest.value), place(largest, what));
         writeln!(text, "{name:<16}{value} at most, {place}")?;
     }
+    for body in &report.rigid_bodies {
+        let (name, moved) = (&body.name, vector(&body.displacement));
+        let (turned, force) = (vector(&body.rotation), vector(&body.contact.force));
+        let moment = vector(&body.contact.moment);
+        writeln!(
+            text,
+            "rigid body      `{name}` moves by {moved}, turns by {turned}"
+        )?;
+        writeln!(
+            text,
+            "                contact force {force}, moment {moment} on it"
+        )?;
+    }
     for support in report.supports.iter().take(LISTED) {
         let (place, force) = (&support.place, vector(&support.force));
         writeln!(text, "support         {force} by {place}")?;

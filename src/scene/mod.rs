@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! bodies    mesh, model, materials, supports, loads, springs
-//! contacts  group of surface facets, rigid obstacle, friction, gap
-//! steps     instants, factors of loads and supports, motions of obstacles, gaps
+//! rigid_bodies  surfaces, motion given or free under forces
+//! contacts  group of surface facets, what it may touch, friction, gap
+//! steps     instants, factors of loads, supports and rigid bodies, motions of obstacles, gaps
 //! settings  tolerance, max_sweeps, time_limit
 //! ```
 //!
@@ -25,7 +26,9 @@ mod load;
 mod load_keys;
 mod mesh_source;
 mod nodal_table;
+mod obstacle;
 mod remeshed;
+mod rigid_body;
 mod saved_state;
 mod selection;
 mod spelling;
@@ -40,11 +43,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::alternation::{Interrupt, Settings};
 use crate::body::Body;
-use crate::contact::ContactPair;
+use crate::contact::{ContactPair, RigidBody};
 use crate::error::Error;
 
 pub use bare::BareProblem;
-pub use contact::{SceneContact, SceneObstacle, SceneSurface};
+pub use contact::{SceneContact, SceneSurface};
 pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
 pub use field::{SceneAffine, SceneAffineVector, SceneSpin, SceneTurn};
 pub use foundation::SceneFoundation;
@@ -55,6 +58,8 @@ pub use half_space::{
 pub use heat::{NodalFile, SceneTemperature};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
+pub use obstacle::SceneObstacle;
+pub use rigid_body::SceneRigidBody;
 pub use saved_state::SavedState;
 pub(crate) use saved_state::{Exact, Fingerprint, exact, plain};
 pub use steps::SceneSteps;
@@ -64,6 +69,7 @@ pub use support::SceneSupport;
 pub(crate) use spelling::nearest;
 
 use mesh_source::MOST_NODES;
+use rigid_body::Resolved;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -86,6 +92,9 @@ pub struct Scene {
     /// The elastic bodies, all in 2D or all in 3D; names differ.
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub bodies: Vec<SceneBody>,
+    /// Bodies without compliance; names differ, also from those of the elastic bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rigid_bodies: Vec<SceneRigidBody>,
     /// Where the bodies may touch obstacles or each other; at least one.
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub contacts: Vec<SceneContact>,
@@ -133,6 +142,8 @@ pub struct Mechanics {
     pub bodies: Vec<Body>,
     /// What may touch what.
     pub contacts: Vec<ContactPair>,
+    /// Rigid bodies that carry the obstacles of some contacts.
+    pub rigid_bodies: Vec<RigidBody>,
     /// How loads, supports and obstacles change; no instants where the scene has no steps.
     pub history: LoadHistory,
     /// Settings of the outer loop.
@@ -293,21 +304,60 @@ impl Scene {
             bodies.push(body);
         }
         check_together(&bodies)?;
-        let contacts = self.contacts.iter().enumerate();
-        let contacts = contacts
-            .map(|(at, contact)| contact.resolve(&format!("contacts[{at}]"), &bodies))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut rigid = self.resolve_rigid(folder, &bodies)?;
+        let mut contacts = Vec::with_capacity(self.contacts.len());
+        for (at, contact) in self.contacts.iter().enumerate() {
+            let place = format!("contacts[{at}]");
+            contacts.push(contact.resolve(&place, folder, &bodies, &rigid)?);
+            if let Some(name) = &contact.rigid_body {
+                let number = contact.rigid_number(&place, name, &rigid)?;
+                rigid[number].body.pairs.push(at);
+            }
+        }
+        let rigid_bodies: Vec<RigidBody> = rigid.into_iter().map(|rigid| rigid.body).collect();
+        check_touched(&rigid_bodies)?;
         let history = match &self.steps {
-            Some(steps) => steps.resolve(&bodies, &contacts)?,
+            Some(steps) => steps.resolve(&bodies, &contacts, &rigid_bodies)?,
             None => LoadHistory::default(),
         };
         Ok(Mechanics {
             bodies,
             contacts,
+            rigid_bodies,
             history,
             settings,
             notes,
         })
+    }
+
+    fn resolve_rigid(&self, folder: &Path, bodies: &[Body]) -> Result<Vec<Resolved>, Error> {
+        let mut names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+        let mut rigid = Vec::with_capacity(self.rigid_bodies.len());
+        for (at, stated) in self.rigid_bodies.iter().enumerate() {
+            let place = format!("rigid_bodies[{at}]");
+            if names.contains(&stated.name.as_str()) {
+                return Err(Error::NotAccepted {
+                    place: format!("{place}.name"),
+                    found: format!("`{}` again", stated.name),
+                    accepted: "a name of its own for every body".to_owned(),
+                });
+            }
+            names.push(&stated.name);
+            rigid.push(stated.resolve(&place, folder, bodies)?);
+        }
+        Ok(rigid)
+    }
+}
+
+/// Refuses a rigid body that no contact names.
+fn check_touched(rigid: &[RigidBody]) -> Result<(), Error> {
+    match rigid.iter().find(|body| body.pairs.is_empty()) {
+        None => Ok(()),
+        Some(body) => Err(Error::NotAccepted {
+            place: body.place.clone(),
+            found: format!("`{}`, which no contact names", body.name),
+            accepted: "a rigid body that some contact has as its `rigid_body`".to_owned(),
+        }),
     }
 }
 
@@ -498,10 +548,7 @@ mod tests {
                     center: vec![0.0, -2.0],
                     radius: 1.5,
                 }),
-                against: None,
-                friction: 0.0,
-                rounded: None,
-                gap: 0.0,
+                ..SceneContact::default()
             }],
             ..Scene::default()
         };
@@ -549,7 +596,7 @@ mod tests {
             let keys = of["properties"].as_object().unwrap().keys().cloned();
             keys.collect::<Vec<_>>().join(" ")
         };
-        let expected = "$schema bodies comment contacts settings steps title units";
+        let expected = "$schema bodies comment contacts rigid_bodies settings steps title units";
         assert_eq!(keys(&schema), expected);
         assert_eq!(schema["additionalProperties"], false);
         let loads = schema["$defs"]["SceneLoad"]["anyOf"].as_array().unwrap();

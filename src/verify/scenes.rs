@@ -8,7 +8,7 @@ use crate::pipeline::{Solution, solve};
 use crate::report::Report;
 use crate::scene::{
     MeshSource, Scene, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneObstacle,
-    SceneSupport, SceneSurface,
+    SceneSupport,
 };
 
 /// E = 210 GPa, ν = 0.3; in mm, N, MPa.
@@ -65,19 +65,8 @@ pub(super) fn plane(normal: &[f64]) -> SceneObstacle {
 
 /// Two bodies; the group of the first carries the contacts with that of the second.
 pub(super) fn pair(bodies: [SceneBody; 2], groups: [&str; 2], friction: f64) -> Scene {
-    let [own, other] = groups.map(str::to_owned);
-    let contact = SceneContact {
-        body: Some(bodies[0].name.clone()),
-        group: own,
-        obstacle: None,
-        against: Some(SceneSurface {
-            body: Some(bodies[1].name.clone()),
-            group: other,
-        }),
-        friction,
-        rounded: None,
-        gap: 0.0,
-    };
+    let [own, other] = [0, 1].map(|side| [bodies[side].name.as_str(), groups[side]]);
+    let contact = SceneContact::between(own, other, friction);
     Scene {
         bodies: bodies.to_vec(),
         contacts: vec![contact],

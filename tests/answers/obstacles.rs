@@ -66,12 +66,9 @@ impl Pressing {
         });
         scene.contacts.push(SceneContact {
             group: "bottom".into(),
-            body: None,
             obstacle: Some((self.obstacle)(motion)),
-            against: None,
             friction: self.friction,
-            rounded: None,
-            gap: 0.0,
+            ..SceneContact::default()
         });
         certified(&scene)
     }

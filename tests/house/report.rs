@@ -9,7 +9,7 @@ use dpana::contact::{ContactNode, ContactPair, ContactSurface, Obstacle, Opposit
 use dpana::kkt::{Balance, ContactStatus, Judge, Worst, WorstNode};
 use dpana::problem::{ContactProblem, Operator};
 use dpana::report::vtu::{BodyFields, body_vtu, contact_path, contact_vtu};
-use dpana::report::{Report, ReportParts, StageWork, replace_file};
+use dpana::report::{Report, ReportParts, RigidParts, StageWork, replace_file};
 use faer::Mat;
 use serde_json::{Value, json};
 use vtkio::Vtk;
@@ -204,6 +204,7 @@ impl Row {
             displacements: &self.displacements,
             motions: &[],
             balances: &self.balances,
+            rigid: RigidParts::default(),
             extremes: &self.extremes,
             support_forces: &self.support_forces,
             departure: Worst::default(),

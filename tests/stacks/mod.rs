@@ -3,9 +3,7 @@
 
 use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded, rectangle};
 use dpana::report::Report;
-use dpana::scene::{
-    MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
-};
+use dpana::scene::{MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport};
 use dpana::{Scene, Solution, Status, solve};
 
 /// A block between two corners with `cells` along each axis, their sizes graded; in 2D along
@@ -45,18 +43,7 @@ pub(crate) fn hold(mut body: SceneBody, group: &str, axis: usize, value: f64) ->
 
 /// A contact of `own` body and group against `other` body and group.
 pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneContact {
-    SceneContact {
-        body: Some(own[0].to_owned()),
-        group: own[1].to_owned(),
-        obstacle: None,
-        against: Some(SceneSurface {
-            body: Some(other[0].to_owned()),
-            group: other[1].to_owned(),
-        }),
-        friction,
-        rounded: None,
-        gap: 0.0,
-    }
+    SceneContact::between(own, other, friction)
 }
 
 pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scene {

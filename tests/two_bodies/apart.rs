@@ -105,6 +105,7 @@ impl Solved {
             self.condensed.surface(),
             self.condensed.problem(),
             &self.outcome.verdict.displacement,
+            &[],
         )
         .unwrap()
     }

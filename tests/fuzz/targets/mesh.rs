@@ -66,8 +66,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
                 group: any(facets.get(1)),
             }),
             friction: 0.3,
-            rounded: None,
-            gap: 0.0,
+            ..SceneContact::default()
         }],
         ..Scene::default()
     }
