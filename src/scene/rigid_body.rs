@@ -205,18 +205,20 @@ fn along_the_axis(body: &RigidBody) -> Result<(), Error> {
     let Some(component) = refused else {
         return Ok(());
     };
-    let (found, accepted) = match component {
+    let (key, found, accepted) = match component {
         0 => (
+            "displacement",
             "a motion across the axis",
             "0: a ring does not move across its axis",
         ),
         _ => (
+            "rotation",
             "a rotation",
             "0: axisymmetric bodies neither tilt nor bear torsion; use a solid",
         ),
     };
     Err(Error::NotAccepted {
-        place: body.component_place(component, 2),
+        place: format!("{}.{key}[0]", body.place),
         found: found.to_owned(),
         accepted: accepted.to_owned(),
     })

@@ -129,7 +129,7 @@ impl SceneSteps {
             let (_, driven) = known
                 .iter()
                 .find(|(known, _)| known == name)
-                .ok_or_else(|| unknown(&place, "load, support or motion", name, known_names))?;
+                .ok_or_else(|| unknown(&place, "load or support", name, known_names))?;
             let factor = Table::new(&place, rows, 1)?;
             history.factors.push((name.clone(), *driven, factor));
         }

@@ -412,7 +412,7 @@ fn what_a_rigid_body_cannot_be_is_refused_with_its_place() {
         (
             "axisymmetric",
             json!({"displacement": [null, 0]}),
-            "rigid_bodies[0].force[0]",
+            "rigid_bodies[0].displacement[0]",
         ),
         ("axisymmetric", json!({"rotation": [null]}), "torsion"),
         (

@@ -462,7 +462,7 @@ fn obstacles_without_size_or_direction_are_refused() {
             (
                 obstacle,
                 json!({"sphere": {"center": [0, 0], "radius": 1}}),
-                &["contacts[0].obstacle: a sphere", "plane or circle"],
+                &["contacts[0].obstacle: a sphere", "plane, circle, bore"],
             ),
         ],
     );
@@ -485,10 +485,7 @@ fn obstacles_without_size_or_direction_are_refused() {
             (
                 obstacle,
                 json!({"circle": {"center": [0, 0], "radius": 1}}),
-                &[
-                    "contacts[0].obstacle: a circle",
-                    "plane, cylinder or sphere",
-                ],
+                &["contacts[0].obstacle: a circle", "plane, cylinder, sphere"],
             ),
         ],
     );
