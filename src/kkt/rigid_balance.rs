@@ -92,3 +92,67 @@ pub fn rigid_balance(
     found.moment_defect = Defect::of(&[left(3, [contact.moment, given.moment])], turning);
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use sprs::TriMat;
+
+    use super::*;
+    use crate::contact::Component;
+    use crate::kkt::tests::samples::lid_on_box;
+
+    const FREE: Component = Component::Free(0.0);
+    const HELD: Component = Component::Given(0.0);
+
+    /// The lid presses and drags a rigid body below it, which is free under (2, 8) N and 12 N m about (0, 2).
+    fn balance_under(reaction: &[f64; 2]) -> RigidBalance {
+        let (bodies, mut surface, problem) = lid_on_box(0.0);
+        surface.nodes[0].opposite = None;
+        let rigid = RigidBody {
+            place: "rigid_bodies[0]".into(),
+            name: "base".into(),
+            reference: [0.0, 2.0, 0.0],
+            components: [FREE, FREE, HELD, HELD, HELD, FREE],
+            pairs: vec![0],
+        };
+        let stiffness = TriMat::new((2, 2)).to_csr();
+        let state = BodyState {
+            index: 0,
+            body: &bodies[0],
+            stiffness: &stiffness,
+            load: &[0.0; 2],
+            prescribed: &[None; 2],
+            surface: &surface,
+            problem: &problem,
+            reaction,
+            displacement: &[0.0; 2],
+        };
+        rigid_balance(&[state], &rigid, [2.0, 8.0, 0.0, 0.0, 0.0, 12.0]).unwrap()
+    }
+
+    #[test]
+    fn contact_forces_act_at_the_nodes_of_the_other_body() {
+        // (2, 8) N on the lid at (1, 0): the reverse on the base, 1 · (−8) − (−2) · (−2) = −12 N m about (0, 2).
+        let found = balance_under(&[-8.0, 2.0]);
+        assert_eq!(found.contact.force, [-2.0, -8.0, 0.0]);
+        assert_eq!(found.contact.moment, [0.0, 0.0, -12.0]);
+        assert_eq!(
+            (found.force_defect.value, found.moment_defect.value),
+            (0.0, 0.0)
+        );
+        assert!(found.holds());
+    }
+
+    #[test]
+    fn a_force_that_nothing_answers_is_found() {
+        // One newton less leaves 1 N, and 1 N m.
+        let found = balance_under(&[-7.0, 2.0]);
+        assert_eq!(
+            (found.force_defect.value, found.moment_defect.value),
+            (1.0, 1.0)
+        );
+        assert!(!found.holds());
+        assert!(!balance_under(&[f64::NAN, 2.0]).holds());
+    }
+}
