@@ -39,10 +39,10 @@ pub struct Contraction {
 }
 
 /// Estimates (D8) at a solved state; none where nothing is pressed and rough, or where G does not tell the
-/// contacts apart, or between bodies that float, which have no alternation.
+/// contacts apart, or between bodies that float, which have no alternation, or under other laws than Coulomb's.
 #[must_use]
 pub fn contraction(problem: &ContactProblem, outcome: &Outcome) -> Option<Contraction> {
-    if problem.floating().is_some() {
+    if problem.floating().is_some() || problem.laws().is_some() {
         return None;
     }
     let map = Disturbance::new(problem, outcome)?;

@@ -9,7 +9,12 @@
 //! (D4)   stick    ‖p_T‖ ≤ −μ p_N         u_N = g₀,  u_T = 0
 //!        slip     ‖p_T‖ > −μ p_N         u_N = g₀,  (1 − M) t_T + μ d t_N + ρ M u_T = 0
 //!                                        d = p_T/‖p_T‖,   M = γ (1 − d dᵀ),   γ = −μ p_N/‖p_T‖
+//! ```
 //!
+//! With another law `s` of problem::L5 stands for −μ p_N, and a contact that is open, but for a bound without
+//! pressure, has the tangents of stick or slip; one that is bilateral is never open.
+//!
+//! ```text
 //! (D5)   u = û + G t + σ C (t − t_k) + R α,      Rᵀ t + e = σ (α − α_k)
 //! ```
 //!
@@ -24,7 +29,7 @@ use faer::{Col, Mat};
 
 use super::condition::Factored;
 use super::iterate::{Iterate, Motion};
-use super::laws::{Law, Local, roots};
+use super::laws::{Law, Local, roots, scaled_limits};
 use crate::problem::ContactProblem;
 use crate::problem::velocity_basis::VelocityBasis;
 
@@ -216,7 +221,7 @@ impl<'a> Finish<'a> {
         let mut local = Local {
             reaction: [0.0; 3],
             beyond: [0.0; 3],
-            friction: self.friction(contact),
+            limits: scaled_limits(self.problem, &self.roots, contact),
             step: (1.0 + springs.softness).recip(),
         };
         for (k, unknown) in self.block(contact).enumerate() {
@@ -226,14 +231,6 @@ impl<'a> Finish<'a> {
             local.beyond[k] = root * beyond[unknown] + spring;
         }
         local
-    }
-
-    /// μ between scaled reactions.
-    fn friction(&self, contact: usize) -> f64 {
-        match self.roots[self.block(contact)] {
-            [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
-            _ => 0.0,
-        }
     }
 
     /// A point whose open contacts carry nothing.

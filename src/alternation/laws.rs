@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Limits};
 
 /// A diagonal entry of G below this part of the largest is round-off.
 const NOTHING: f64 = f64::EPSILON;
@@ -11,61 +11,90 @@ const NOTHING: f64 = f64::EPSILON;
 pub(super) struct Local {
     pub(super) reaction: [f64; 3],
     pub(super) beyond: [f64; 3],
-    /// μ between scaled reactions.
-    pub(super) friction: f64,
+    /// Of friction, between scaled reactions.
+    pub(super) limits: Limits,
     /// Length of the step to the trial point: 1/(1 + σ).
     pub(super) step: f64,
 }
 
 /// What a contact does, read off its trial point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
-    Open,
+struct State {
+    /// Its gap is closed; open, it has tangents only where friction needs no pressure.
+    closed: bool,
+    tangents: Tangents,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Tangents {
+    /// No friction is possible without pressure.
+    Free,
     Stick,
     Slip {
         direction: [f64; 2],
         bound: f64,
         /// γ, below one.
         ratio: f64,
+        /// The bound is `constant − slope t_N`.
+        slope: f64,
+        constant: f64,
     },
 }
 
-/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = 0`, a row per unknown.
+/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = known`, a row per unknown.
 pub(super) struct Law {
     pub(super) contact: usize,
     pub(super) block: Range<usize>,
     on_reaction: [[f64; 3]; 3],
     on_displacement: [[f64; 3]; 3],
+    known: [f64; 3],
 }
 
 impl Local {
     fn state(&self) -> State {
         let trial = [0, 1, 2].map(|k| self.reaction[k] - self.step * self.beyond[k]);
-        if trial[0] >= 0.0 {
-            return State::Open;
+        let limits = &self.limits;
+        let closed = limits.bilateral || trial[0] < 0.0;
+        let (size, bound) = (trial[1].hypot(trial[2]), limits.bound(trial[0]));
+        if !closed && bound == 0.0 {
+            return State {
+                closed,
+                tangents: Tangents::Free,
+            };
         }
-        let (size, bound) = (trial[1].hypot(trial[2]), -self.friction * trial[0]);
-        if self.friction > 0.0 && size <= bound {
-            return State::Stick;
+        let rough = limits.friction > 0.0 || limits.shear > 0.0;
+        if rough && size <= bound {
+            return State {
+                closed,
+                tangents: Tangents::Stick,
+            };
         }
         let size = if size > 0.0 { size } else { 1.0 };
-        State::Slip {
-            direction: [trial[1] / size, trial[2] / size],
-            bound,
-            ratio: bound / size,
+        let slope = limits.slope(trial[0]);
+        State {
+            closed,
+            tangents: Tangents::Slip {
+                direction: [trial[1] / size, trial[2] / size],
+                bound,
+                ratio: bound / size,
+                slope,
+                constant: bound + slope * trial[0],
+            },
         }
     }
 
     /// What the natural map leaves, per unknown, as roots of an energy.
     pub(super) fn defect(&self) -> [f64; 3] {
         let (t, w) = (self.reaction, self.beyond.map(|w| self.step * w));
-        let left = match self.state() {
-            State::Open => t,
-            State::Stick => w,
-            State::Slip {
+        let state = self.state();
+        let normal = if state.closed { w[0] } else { t[0] };
+        let left = match state.tangents {
+            Tangents::Free => t,
+            Tangents::Stick => [normal, w[1], w[2]],
+            Tangents::Slip {
                 direction, bound, ..
             } => [
-                w[0],
+                normal,
                 t[1] - bound * direction[0],
                 t[2] - bound * direction[1],
             ],
@@ -76,19 +105,29 @@ impl Local {
     /// The law of what a contact does; none if it is open.
     pub(super) fn law(&self, contact: usize, block: Range<usize>) -> Option<Law> {
         let (mut on_reaction, mut on_displacement) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        on_displacement[0][0] = 1.0;
-        match self.state() {
-            State::Open => return None,
-            State::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
-            State::Slip {
-                direction, ratio, ..
+        let mut known = [0.0; 3];
+        let state = self.state();
+        match state.closed {
+            true => on_displacement[0][0] = 1.0,
+            false => on_reaction[0][0] = 1.0,
+        }
+        match state.tangents {
+            Tangents::Free => return None,
+            Tangents::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
+            Tangents::Slip {
+                direction,
+                ratio,
+                slope,
+                constant,
+                ..
             } => {
                 for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let unit = if a == b { 1.0 } else { 0.0 };
                     let m = ratio * (unit - direction[a] * direction[b]);
-                    on_reaction[1 + a][0] = self.friction * direction[a];
+                    on_reaction[1 + a][0] = slope * direction[a];
                     on_reaction[1 + a][1 + b] = unit - m;
                     on_displacement[1 + a][1 + b] = self.step * m;
+                    known[1 + a] = constant * direction[a];
                 }
             }
         }
@@ -97,6 +136,7 @@ impl Local {
             block,
             on_reaction,
             on_displacement,
+            known,
         })
     }
 }
@@ -106,7 +146,7 @@ impl Law {
     pub(super) fn missing(&self, at: &Local) -> [f64; 3] {
         [0, 1, 2].map(|row| {
             let forces = dot(self.on_reaction[row], at.reaction);
-            -forces - dot(self.on_displacement[row], at.beyond)
+            self.known[row] - forces - dot(self.on_displacement[row], at.beyond)
         })
     }
 
@@ -116,6 +156,23 @@ impl Law {
             let force = own.map_or(0.0, |own| self.on_reaction[row][own]);
             force + dot(self.on_displacement[row], moved)
         })
+    }
+}
+
+/// What bounds a contact's friction, between reactions scaled by the roots.
+pub(super) fn scaled_limits(problem: &ContactProblem, roots: &[f64], contact: usize) -> Limits {
+    let limits = problem.limits(contact);
+    match roots[problem.block(contact)] {
+        [normal, tangential, ..] => Limits {
+            friction: limits.friction * normal / tangential,
+            shear: limits.shear / tangential,
+            cap: limits.cap / tangential,
+            ..limits
+        },
+        _ => Limits {
+            bilateral: limits.bilateral,
+            ..Limits::coulomb(0.0)
+        },
     }
 }
 
@@ -157,7 +214,7 @@ mod tests {
         Local {
             reaction,
             beyond,
-            friction: 0.5,
+            limits: Limits::coulomb(0.5),
             step: 1.0,
         }
     }

@@ -21,6 +21,7 @@
 //! Software 35 (2004) 595–600.
 
 mod anderson;
+mod centred;
 mod condition;
 mod contraction;
 mod felt;
@@ -51,6 +52,7 @@ pub use starts::other_starts;
 
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;
+use centred::on_centred_sets;
 use felt::on_felt_motions;
 use run::Run;
 
@@ -61,7 +63,9 @@ use run::Run;
 /// Settings outside their range.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
     settings.validate()?;
-    on_felt_motions(problem, |problem, _| Ok(run(Run::new(problem, settings))))
+    on_centred_sets(problem, settings, |problem, _| {
+        on_felt_motions(problem, |problem, _| Ok(run(Run::new(problem, settings))))
+    })
 }
 
 /// Solves a condensed contact problem from a state that is likely near: that of the load step
@@ -80,9 +84,13 @@ pub fn solve_from(
     motion: &[f64],
 ) -> Result<Outcome, Error> {
     check_length("motion", problem.free_modes(), motion.len())?;
-    on_felt_motions(problem, |problem, felt| {
-        let state = (reaction, &felt(motion)[..]);
-        Ok(run(begun(problem, settings, state, None)?))
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    on_centred_sets(problem, settings, |problem, centred| {
+        let reaction = centred.reaction(reaction);
+        on_felt_motions(problem, |problem, felt| {
+            let state = (&reaction[..], &felt(motion)[..]);
+            Ok(run(begun(problem, settings, state, None)?))
+        })
     })
 }
 
@@ -98,9 +106,13 @@ pub fn finish(
     motion: &[f64],
 ) -> Result<Outcome, Error> {
     check_length("motion", problem.free_modes(), motion.len())?;
-    on_felt_motions(problem, |problem, felt| {
-        let state = (reaction, &felt(motion)[..]);
-        Ok(begun(problem, settings, state, None)?.into_outcome())
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    on_centred_sets(problem, settings, |problem, centred| {
+        let reaction = centred.reaction(reaction);
+        on_felt_motions(problem, |problem, felt| {
+            let state = (&reaction[..], &felt(motion)[..]);
+            Ok(begun(problem, settings, state, None)?.into_outcome())
+        })
     })
 }
 
@@ -127,9 +139,16 @@ pub fn solve_near(
     for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
         beyond[n] -= gap;
     }
-    on_felt_motions(problem, |problem, felt| {
-        let state = (&near.reaction[..], &felt(&near.motion)[..]);
-        Ok(run(begun(problem, settings, state, Some(&beyond))?))
+    check_length("reaction", problem.unknowns(), near.reaction.len())?;
+    on_centred_sets(problem, settings, |problem, centred| {
+        let (reaction, beyond) = (
+            centred.reaction(&near.reaction),
+            centred.displacement(&beyond),
+        );
+        on_felt_motions(problem, |problem, felt| {
+            let state = (&reaction[..], &felt(&near.motion)[..]);
+            Ok(run(begun(problem, settings, state, Some(&beyond))?))
+        })
     })
 }
 

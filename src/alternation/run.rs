@@ -199,13 +199,14 @@ impl<'a> Run<'a> {
         self.work.seconds.normal += start.elapsed().as_secs_f64();
     }
 
-    /// (D3) on the normal reaction, clipped to t_N ≤ 0.
+    /// (D3) on the normal reaction, clipped to t_N ≤ 0 unless bilateral.
     pub(super) fn accelerate(&mut self) {
         let image = self.normal_reaction();
         let next = self.anderson.next(&self.before, &image);
-        for (contact, t) in next.iter().enumerate() {
-            self.state.reaction[self.problem.offsets()[contact]] = t.min(0.0);
+        for (&n, t) in self.problem.normals().iter().zip(next) {
+            self.state.reaction[n] = t;
         }
+        self.normal.admit(&mut self.state.reaction);
     }
 
     /// (H2).

@@ -99,7 +99,7 @@ fn start(
     let mut start = vec![0.0; found.len()];
     for (contact, ends) in problem.offsets().windows(2).enumerate() {
         let (n, tangents) = (ends[0], ends[0] + 1..ends[1]);
-        let bound = -problem.friction()[contact] * found[n].min(0.0);
+        let bound = within(problem.friction_bound(contact, found[n]), largest);
         match number {
             0 => {}
             1 => {
@@ -113,12 +113,17 @@ fn start(
             }
             _ => {
                 start[n] = -HARDER * largest * random.part();
-                let reach = -problem.friction()[contact] * start[n];
+                let reach = within(problem.friction_bound(contact, start[n]), largest);
                 tangents.for_each(|k| start[k] = reach * (2.0 * random.part() - 1.0));
             }
         }
     }
     start
+}
+
+/// A radius; of one without end, the largest reaction.
+fn within(bound: f64, largest: f64) -> f64 {
+    if bound.is_finite() { bound } else { largest }
 }
 
 /// What closes every gap and undoes every slip, pulling where need be; none without a stiffness.

@@ -4,6 +4,7 @@
 //! (L1)  t_N ≤ 0,   u_N − g₀ ≤ 0,   t_N (u_N − g₀) = 0            Signorini
 //! (L2)  ‖t_T‖ ≤ −μ t_N                                          Coulomb's disc
 //! (L3)  −μ t_N ‖u_T‖ + t_T · u_T = 0                            slip opposes friction
+//! (L4), (L5)                                                   laws beyond Coulomb's, in `law`
 //!
 //! (K1)  r_N = t_N − min(0, t_N − ρ_N (u_N − g₀))                natural map, and
 //!       r_T = t_T − P_disc(t_T − ρ_T u_T)                       ‖r‖ / max(‖t‖, floor)
@@ -13,6 +14,7 @@
 //! (K5)  u = R (u_own − Σ w_j u_j),   f_j = −w_j f_own           the two sides of a contact
 //! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
 //! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
+//!       e·α > Σ max over the set of −v·t              the same under laws that bound more or less
 //! (K8)  Rᵀ t + e = 0                                            equilibrium of floating bodies
 //! (K9)  external work = elastic + dissipation + closure          where the work of a load step went
 //! ```
@@ -34,6 +36,7 @@ mod floating;
 mod held;
 mod impossibility;
 mod judge;
+mod law;
 mod ledger;
 mod natural_map;
 mod resultant;
@@ -55,7 +58,7 @@ pub(crate) use exchange::Exchange;
 pub use exchange::exchange;
 pub(crate) use held::held;
 pub(crate) use impossibility::Impossibility;
-pub use impossibility::impossibility;
+pub use impossibility::{impossibility, impossibility_under_laws};
 pub use judge::Judge;
 pub(crate) use ledger::{Account, ContactStep, Ledger};
 pub(crate) use resultant::Resultant;

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use faer::linalg::matmul::matmul;
 use faer::{Accum, ColMut, ColRef, Mat, Par};
 
-use super::{Floating, Operator};
+use super::{Floating, Law, Operator};
 use crate::error::{Error, check_finite, check_length};
 
 /// Find reactions `t` and displacements `u = û + G t` (C1) that satisfy (L1)–(L3);
@@ -59,6 +59,8 @@ pub struct ContactProblem {
     /// Contacts that were stated without friction and hold no tangent.
     smooth: Arc<[bool]>,
     floating: Option<Floating>,
+    /// Per contact; none where all obey Coulomb's law alone.
+    laws: Option<Arc<[Law]>>,
 }
 
 impl ContactProblem {
@@ -102,6 +104,7 @@ impl ContactProblem {
             operator: Arc::new(operator),
             offsets,
             floating: None,
+            laws: None,
         })
     }
 
@@ -157,6 +160,7 @@ impl ContactProblem {
                            condense it with any friction > 0, and set that to 0 where it is not wanted",
             });
         }
+        self.check_laws(&friction)?;
         Ok(Self {
             friction,
             ..self.clone()
@@ -167,6 +171,14 @@ impl ContactProblem {
     pub(crate) fn with_operator(&self, operator: Operator) -> Self {
         Self {
             operator: Arc::new(operator),
+            ..self.clone()
+        }
+    }
+
+    /// The same problem under other laws, whose compliance is not looked at.
+    pub(crate) fn under(&self, laws: Option<Arc<[Law]>>) -> Self {
+        Self {
+            laws,
             ..self.clone()
         }
     }
@@ -279,6 +291,12 @@ impl ContactProblem {
     #[must_use]
     pub fn friction(&self) -> &[f64] {
         &self.friction
+    }
+
+    /// What contacts obey beside Coulomb's law, per contact; none where all obey that alone.
+    #[must_use]
+    pub fn laws(&self) -> Option<&[Law]> {
+        self.laws.as_deref()
     }
 
     /// Initial gap per contact, in metre.

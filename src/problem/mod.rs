@@ -8,20 +8,24 @@
 //!
 //! Contact `i` has a block of unknowns, the normal first, then its tangents. A
 //! [`ContactProblem`] is an [`Operator`], a free displacement, an initial gap and a coefficient of
-//! friction per contact, and the free modes of bodies that [float](Floating).
+//! friction per contact, maybe a [`Law`] that says more, and the free modes of bodies that [float](Floating).
 //!
 //! | part | file |
 //! |---|---|
 //! | the problem of a load step (C13) | `contact_problem` |
 //! | compliance, and stiffness where it exists | `operator` |
+//! | laws beyond Coulomb's (L4), (L5) | `law` |
 //! | bodies that contact alone holds (C3) | `floating` |
 //! | their motions, free of units | `velocity_basis` |
 
 mod contact_problem;
 mod floating;
+mod law;
 mod operator;
 pub(crate) mod velocity_basis;
 
 pub use contact_problem::ContactProblem;
 pub use floating::Floating;
+pub(crate) use law::Limits;
+pub use law::{Ellipse, Law};
 pub use operator::Operator;

@@ -9,6 +9,7 @@ mod continuity;
 mod discrete_kinds;
 mod hard_cases;
 mod judge;
+mod laws;
 mod limits;
 mod random_equilibria;
 mod random_problems;

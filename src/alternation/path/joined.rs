@@ -20,7 +20,7 @@
 use faer::{Col, Mat};
 
 use crate::alternation::condition::{Factored, times};
-use crate::alternation::laws::{Law, Local, roots};
+use crate::alternation::laws::{Law, Local, roots, scaled_limits};
 use crate::alternation::settings::Clock;
 use crate::problem::ContactProblem;
 
@@ -322,10 +322,7 @@ impl<'a> JoinedPath<'a> {
         let mut local = Local {
             reaction: [0.0; 3],
             beyond: [0.0; 3],
-            friction: match self.roots[block.clone()] {
-                [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
-                _ => 0.0,
-            },
+            limits: scaled_limits(self.problem, &self.roots, contact),
             step: 1.0,
         };
         for (k, unknown) in block.enumerate() {

@@ -71,7 +71,7 @@ struct Bound {
 }
 
 impl<'a> PlanePath<'a> {
-    /// From surfaces far apart; none if a contact has two tangents, or bodies float.
+    /// From surfaces far apart; none if a contact has two tangents or another law than Coulomb's, or bodies float.
     pub(super) fn of_approach(problem: &'a ContactProblem) -> Option<Self> {
         let mut drive = Col::zeros(problem.unknowns());
         let mut deepest = 0.0_f64;
@@ -118,7 +118,7 @@ impl<'a> PlanePath<'a> {
     ) -> Option<Self> {
         let blocks = problem.offsets().windows(2);
         let plane = blocks.into_iter().all(|ends| ends[1] - ends[0] <= 2);
-        (plane && problem.floating().is_none()).then(|| Self {
+        (plane && problem.floating().is_none() && problem.laws().is_none()).then(|| Self {
             piece: Piece {
                 problem,
                 drive,
