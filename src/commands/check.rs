@@ -45,10 +45,13 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
         let contacts = surface.nodes.iter().filter(|node| node.pair == at).count();
         writeln!(
             out,
-            "contact `{}`: {} facets, friction {}, {contacts} contacts",
+            "contact `{}`: {} facets, {}, {contacts} contacts",
             stated.group,
             contact.facets.len(),
-            contact.friction,
+            match contact.law.words(contact.friction) {
+                Some(law) => format!("law {law}"),
+                None => format!("friction {}", contact.friction),
+            },
         )?;
     }
     for note in &mechanics.notes {

@@ -10,6 +10,7 @@ use super::PartMotion;
 use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
+use super::laws::{friction, under_laws};
 use super::load_case::Action;
 use super::rigid_bodies::{floating, part_motions};
 use super::room::dense_bytes;
@@ -201,23 +202,20 @@ fn join(
             Operator::from_bodies(compliance)?
         }
     };
-    let friction = surface
-        .nodes
-        .iter()
-        .map(|contact| pairs[contact.pair].friction)
-        .collect();
     let initial_gap = surface
         .nodes
         .iter()
         .map(|node| node.initial_gap + pairs[node.pair].gap)
         .collect();
-    ContactProblem::new(
+    let friction = friction(surface, pairs);
+    let problem = ContactProblem::new(
         &tangents,
         friction,
         initial_gap,
         free_displacement,
         operator,
-    )
+    );
+    under_laws(problem?, surface, pairs)
 }
 
 #[cfg(test)]
@@ -265,6 +263,7 @@ mod tests {
                 normal,
             }),
             friction: 0.4,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };
@@ -464,6 +463,7 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.0,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };
@@ -561,6 +561,7 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.5,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };

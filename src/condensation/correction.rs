@@ -165,6 +165,7 @@ mod tests {
                 normal: [0.28, 0.0, 0.96],
             }),
             friction: 0.3,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };

@@ -151,6 +151,7 @@ mod tests {
                 normal: [0.0, 0.0, 1.0],
             }),
             friction: 0.0,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };

@@ -18,6 +18,7 @@
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6), set right where the factor has few digits (C24) | `condensed_body`, `correction` |
 //! | room for what is dense | `room` |
+//! | laws of the contacts, per area and place (C25) | `laws` |
 //! | the problem of a load step (C13) | `load_step` |
 
 mod border;
@@ -29,6 +30,7 @@ mod elimination_tree;
 mod factor;
 mod grounding;
 mod interface;
+mod laws;
 mod load_case;
 mod load_step;
 mod local_axes;
@@ -44,6 +46,7 @@ mod work;
 
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
+pub(crate) use laws::friction;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
 pub(crate) use room::dense_bytes;
 pub(crate) use superposition::{Driven, Superposition};

@@ -232,6 +232,7 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.5,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };

@@ -175,7 +175,7 @@ fn contacts(
             pair: 0,
             position,
             frame,
-            tangents: if pair.friction == 0.0 { 0 } else { kept },
+            tangents: if pair.is_smooth() { 0 } else { kept },
             initial_gap: node.initial_gap,
             area: node.weight * body.model.depth(),
             bulge: node.bulge,
@@ -258,6 +258,7 @@ mod tests {
                 facets: facets(&lower.mesh, "top"),
             },
             friction: 0.3,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         };

@@ -6,6 +6,7 @@
 //! | step | file |
 //! |---|---|
 //! | a pair of sides, a contact | `pair`, `node` |
+//! | what the contacts of a pair obey, per area | `law` |
 //! | all contacts of a scene | `surface` |
 //! | normal and tangents of a contact | `frame` |
 //! | facets that face the other side | `facing` |
@@ -20,6 +21,7 @@ mod carrying_side;
 mod corner_weights;
 mod facing;
 pub(crate) mod frame;
+mod law;
 mod lift;
 pub(crate) mod mortar;
 mod node;
@@ -31,6 +33,7 @@ mod surface;
 mod turn;
 mod turning_edges;
 
+pub use law::{PairLaw, Places, Region};
 pub use node::{ContactNode, OppositeNodes};
 pub(crate) use obstacle::Closest;
 pub use obstacle::Obstacle;

@@ -126,7 +126,7 @@ impl View<'_> {
         let across = (0..dimension).filter(|axis| frame[0][*axis] == 0.0);
         let moved = own.flat_map(|node| across.clone().map(move |axis| (axis, given(node, axis))));
         let mut moved = moved.filter_map(|(axis, u)| Some((axis, u.filter(|u| *u != 0.0)?)));
-        if let (Some((axis, displacement)), true) = (moved.next(), pair.friction > 0.0) {
+        if let (Some((axis, displacement)), true) = (moved.next(), !pair.is_smooth()) {
             return Err(Error::DraggedContact {
                 place: pair.place.clone(),
                 node,
@@ -148,7 +148,7 @@ impl View<'_> {
             pair: 0,
             position,
             frame,
-            tangents: if pair.friction == 0.0 { 0 } else { kept },
+            tangents: if pair.is_smooth() { 0 } else { kept },
             initial_gap,
             area: footing.area * self.body.model.depth(),
             bulge: footing.bulge,
@@ -189,6 +189,7 @@ mod tests {
             body: 0,
             opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
             friction: 0.3,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
         }

@@ -1,6 +1,7 @@
 //! A pair of sides that may touch, as a scene names it, and what it adds to the contact surface.
 
 use super::Obstacle;
+use super::law::PairLaw;
 use super::node::ContactNode;
 use crate::body::Facet;
 use crate::error::{Error, check_finite};
@@ -23,6 +24,8 @@ pub struct ContactPair {
     pub opposite: Opposite,
     /// Coefficient of friction, `μ ≥ 0`.
     pub friction: f64,
+    /// What the contacts obey beside it.
+    pub law: PairLaw,
     /// Gaps are measured between the smooth surfaces that straight facets stand for, where
     /// these turn; else between the facets.
     pub rounded: bool,
@@ -58,6 +61,7 @@ impl ContactPair {
             });
         }
         check_finite(&place, &[self.friction])?;
+        self.check_law()?;
         check_finite(&format!("{}.gap", self.place), &[self.gap])
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! area of node i    Σ ∫ N_i dA        over the facing facets of its pair
-//! initial gap       signed distance from the node to the obstacle
+//! initial gap       signed distance from the node to the obstacle; zero where the sides are tied as they are drawn
 //! ```
 //!
 //! Contacts stand at corners; those of quadratic facets move with the nodes around, (C16) in
@@ -78,6 +78,10 @@ impl ContactSurface {
             };
             for contact in &mut found.contacts {
                 contact.pair = index;
+                if pair.law.bilateral {
+                    // As they are drawn.
+                    contact.initial_gap = 0.0;
+                }
             }
             let body = found.coupling.body;
             let of_body = |facet| (body, facet);

@@ -186,7 +186,7 @@ impl Stock<'_, '_> {
                         body: Some(self.parts.parts[master].name.clone()),
                         group: against.clone(),
                     }),
-                    friction: law.friction,
+                    friction: Some(law.friction),
                     ..SceneContact::default()
                 });
             }

@@ -17,7 +17,7 @@ use super::state::{ContactState, length};
 /// η of (K3), in joule; negative only where reactions or displacements are inadmissible.
 pub(super) fn bipotential_gap(states: &[ContactState]) -> f64 {
     let terms = states.iter().map(|state| {
-        if state.law == JudgedLaw::default() {
+        if state.law == JudgedLaw::COULOMB {
             let t_n = state.normal_reaction;
             let friction = state.friction * t_n * length(state.slip);
             return t_n * state.overlap + state.friction_work() - friction;
@@ -46,6 +46,7 @@ mod tests {
             tangential_reaction: [-1.0, 0.0],
             overlap: 0.0,
             slip: [2.0, 0.0],
+            law: JudgedLaw::COULOMB,
         };
         // −4 · (−0.5) = 2 J, and (−1) · 2 + 0.5 · 10 · 2 = 8 J.
         assert_eq!(bipotential_gap(&[across_a_gap, slip_inside_the_disc]), 10.0);
@@ -59,6 +60,7 @@ mod tests {
             tangential_reaction: [-3.0, -4.0],
             overlap: 0.0,
             slip: [0.75, 1.0],
+            law: JudgedLaw::COULOMB,
         };
         assert_eq!(bipotential_gap(&[slip]), 0.0);
         let broken = ContactState {

@@ -28,7 +28,7 @@ pub(super) fn coulomb_residual(states: &[ContactState]) -> CoulombResidual {
     for (contact, state) in states.iter().enumerate() {
         // Not `friction_bound`: (L2) and (L3) hold the signed −μ t_N, so that a
         // reaction that pulls is charged here as well.
-        let bound = match state.law == JudgedLaw::default() {
+        let bound = match state.law == JudgedLaw::COULOMB {
             true => -state.friction * state.normal_reaction,
             false => state.friction_bound(),
         };
@@ -59,6 +59,7 @@ mod tests {
             tangential_reaction,
             overlap: 0.0,
             slip,
+            law: JudgedLaw::COULOMB,
         }
     }
 

@@ -16,6 +16,9 @@ use crate::problem::Law;
 pub(super) struct JudgedLaw(Option<Law>);
 
 impl JudgedLaw {
+    /// Coulomb's alone.
+    pub(super) const COULOMB: Self = Self(None);
+
     pub(super) fn new(law: Option<&Law>) -> Self {
         Self(law.copied())
     }

@@ -119,6 +119,7 @@ pub(super) fn largest(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kkt::law::JudgedLaw;
 
     const STEP: Step = Step {
         normal: 10.0,
@@ -132,6 +133,7 @@ mod tests {
         tangential_reaction: [0.0; 2],
         overlap: 0.0,
         slip: [0.0; 2],
+        law: JudgedLaw::COULOMB,
     };
 
     #[test]

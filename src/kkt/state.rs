@@ -99,6 +99,7 @@ mod tests {
             tangential_reaction: [30.0, 31.0],
             overlap: 0.3,
             slip: [3.0, 3.1],
+            law: JudgedLaw::COULOMB,
         };
         assert_eq!(states[2], last);
     }

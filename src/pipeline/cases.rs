@@ -97,6 +97,7 @@ pub fn cases_watched(
     // Contacts hold tangents where any case has friction.
     for (drive, variation) in drives.iter().zip(variations) {
         if let Drive::Friction(contacts) = drive {
+            check_varied(&variation.name, contacts, &mechanics.contacts)?;
             let most = variation.values.iter().copied().fold(0.0, f64::max);
             contacts
                 .iter()
@@ -135,6 +136,26 @@ pub fn cases_watched(
         table.append(part.map_err(at_scene)?);
     }
     Ok(table)
+}
+
+/// Refuses other friction where a law has none, or several coefficients, to put it in place of.
+fn check_varied(name: &str, varied: &[usize], pairs: &[ContactPair]) -> Result<(), Error> {
+    let mut varied = varied.iter().filter_map(|&k| pairs.get(k));
+    let fixed = varied.find(|pair| {
+        let law = &pair.law;
+        law.places.is_some() || law.ellipse.is_some() || law.sticks || law.tension > 0.0
+    });
+    match fixed {
+        None => Ok(()),
+        Some(pair) => Err(Error::NotAccepted {
+            place: format!("{name} of {}", pair.place),
+            found: format!(
+                "the law `{}`",
+                pair.law.words(pair.friction).unwrap_or_default()
+            ),
+            accepted: "a law with one coefficient that is free of others".to_owned(),
+        }),
+    }
 }
 
 /// All combinations of values, the last varying fastest; one without values if nothing varies.
@@ -277,6 +298,12 @@ impl Stated {
         Ok(table)
     }
 
+    /// Whether a pair's friction is one number, which may vary.
+    fn varies(&self, pair: usize) -> bool {
+        let law = &self.setup.pairs[pair].law;
+        law.places.is_none() && law.ellipse.is_none()
+    }
+
     /// The bodies under the values of a case.
     fn put(&self, values: &[f64]) -> Result<Setup, Error> {
         let pairs = self.friction.len();
@@ -292,9 +319,12 @@ impl Stated {
         }
         let mut setup = self.setup.clone();
         let contacts = &setup.condensed.surface().nodes;
-        let friction = contacts
-            .iter()
-            .map(|contact| friction[contact.pair])
+        let held = setup.condensed.problem().friction().iter().zip(contacts);
+        let friction = held
+            .map(|(held, contact)| match self.varies(contact.pair) {
+                true => friction[contact.pair],
+                false => *held,
+            })
             .collect();
         let parted = contacts.iter().zip(&self.gaps);
         let parted_gaps = parted

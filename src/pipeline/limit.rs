@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::limit::{LeastFriction, Limit, RigidContacts};
 use crate::report::{Beyond, Limits, LoadLimit};
 use crate::scene::{Mechanics, Scene};
-use crate::{body, kkt, report};
+use crate::{body, condensation, kkt, report};
 
 /// The judge believes reactions that leave less than this open, relative to them.
 const HOLDS: f64 = 1e-9;
@@ -64,6 +64,14 @@ pub fn limit(scene: &Scene) -> Result<Limits, Error> {
 }
 
 fn limits(title: &str, bodies: &[Body], pairs: &[ContactPair]) -> Result<Limits, Error> {
+    if let Some(pair) = pairs.iter().find(|pair| !pair.law.is_coulomb()) {
+        return Err(Error::NotAccepted {
+            place: format!("{}.law", pair.place),
+            found: pair.law.words(pair.friction).unwrap_or_default(),
+            accepted: "Coulomb's law, whose cone limit analysis knows; `dpana solve` holds bodies by any law"
+                .to_owned(),
+        });
+    }
     let rigid = RigidBodies::new(bodies, pairs)?;
     let modes = rigid.modes();
     if modes.ncols() == 0 {
@@ -75,10 +83,10 @@ fn limits(title: &str, bodies: &[Body], pairs: &[ContactPair]) -> Result<Limits,
     }
     let nodes = &rigid.surface().nodes;
     let tangents: Vec<usize> = nodes.iter().map(|contact| contact.tangents).collect();
-    let friction = nodes.iter().map(|contact| pairs[contact.pair].friction);
+    let friction = condensation::friction(rigid.surface(), pairs);
     let case = Case {
         bodies,
-        contacts: RigidContacts::new(&tangents, friction.collect(), modes)?,
+        contacts: RigidContacts::new(&tangents, friction, modes)?,
         rigid,
     };
     let forces: Vec<_> = bodies.iter().map(body::load_vector).collect();
@@ -185,7 +193,8 @@ impl Case<'_> {
                 multiple, motion, ..
             } => {
                 let first = pairs.first().map_or(0.0, |pair| pair.friction);
-                let uniform = pairs.iter().all(|pair| pair.friction == first);
+                let mut one = pairs.iter();
+                let uniform = one.all(|pair| pair.friction == first && pair.law.places.is_none());
                 report::ReportedLeastFriction::Multiple {
                     multiple,
                     coefficient: uniform.then_some(multiple * first),

@@ -52,12 +52,13 @@ impl Measured {
     ) -> Result<Self, Error> {
         let states = BodyState::of_bodies(bodies, condensed, &outcome.reaction, displacements);
         let problem = condensed.problem();
+        let said = problem.displacement_of_bodies(&outcome.verdict.displacement, &outcome.reaction);
         let departure = kkt::surface_departure(
             bodies,
             displacements,
             condensed.surface(),
             problem,
-            &problem.total_displacement(&outcome.verdict.displacement),
+            &problem.total_displacement(&said),
         )?;
         let free = problem.free_displacement().iter();
         let free = free.fold(0.0, |most: f64, u| most.max(u.abs()));

@@ -178,9 +178,10 @@ impl State {
         let mut displacement = vec![0.0; problem.unknowns()];
         let gaps = self.gaps.iter().zip(problem.initial_gap());
         let contacts = self.approaches(surface).zip(gaps);
+        let layers = problem.layers();
         for (&n, (approach, (before, gap))) in problem.normals().iter().zip(contacts) {
             // What is left of the gap is the same.
-            displacement[n] = approach + (gap - before);
+            displacement[n] = approach + layers[n] * self.reaction[n] + (gap - before);
         }
         Earlier {
             reaction: self.reaction.clone(),

@@ -255,6 +255,26 @@ impl ContactProblem {
     }
 }
 
+impl ContactProblem {
+    /// `s` of (L5) at a contact under a normal reaction, in newton: the largest friction along an ellipse's
+    /// direction; infinite where nothing bounds it.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such contact.
+    #[must_use]
+    pub fn stated_bound(&self, contact: usize, normal_reaction: f64) -> f64 {
+        let Some(law) = self
+            .law(contact)
+            .filter(|law| !law.sticks && !law.bilateral)
+        else {
+            return self.friction_bound(contact, normal_reaction);
+        };
+        let signed = law.shear - self.friction()[contact] * normal_reaction;
+        signed.max(0.0).min(law.cap)
+    }
+}
+
 /// `s` of (L5) as a function of the normal reaction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Limits {

@@ -186,9 +186,14 @@ fn energy(text: &mut String, report: &Report) -> std::fmt::Result {
     )
 }
 
-/// One line per contact pair, if there are several.
+/// One line per contact pair, if there are several; laws beyond Coulomb's.
 fn pairs(text: &mut String, report: &Report) -> std::fmt::Result {
     let pairs = &report.totals.pairs;
+    for pair in pairs.iter().take(LISTED) {
+        if let Some(law) = &pair.law {
+            writeln!(text, "law             {law}, at {}", pair.place)?;
+        }
+    }
     if pairs.len() < 2 {
         return Ok(());
     }

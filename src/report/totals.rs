@@ -21,7 +21,7 @@ pub struct Totals {
     pub stick: usize,
     /// Pressed contacts that slide.
     pub slip: usize,
-    /// `Σ −t_N ≥ 0`, in newton.
+    /// `Σ −t_N ≥ 0`, in newton; negative where laws bear more tension than there is pressure.
     pub normal: f64,
     /// Sum of the friction forces, in newton.
     pub friction: Vec<f64>,
@@ -46,6 +46,9 @@ pub struct Totals {
 pub struct PairTotals {
     /// Where the scene says so, such as `contacts[0]`.
     pub place: String,
+    /// The law of its contacts in words; absent for Coulomb's with one coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<String>,
     /// Totals over its contacts.
     #[serde(flatten)]
     pub totals: Totals,
@@ -143,6 +146,7 @@ impl Totals {
         let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges).zip(judged);
         let pairs = pairs.map(|(((pair, sums), exchange), (coupling, fit))| PairTotals {
             place: pair.place.clone(),
+            law: pair.law.words(pair.friction),
             totals: sums.totals(dimension, Vec::new()),
             exchange: ReportedExchange::new(exchange, dimension),
             coupling,

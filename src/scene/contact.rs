@@ -3,10 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::field::{finite, is_zero};
+use super::law::{SceneCompliance, SceneLaw, coefficient};
 use super::selection::{norm, vector};
 use super::{selection, spelling};
 use crate::body::Body;
-use crate::contact::{ContactPair, Obstacle, Opposite};
+use crate::contact::{ContactPair, Obstacle, Opposite, PairLaw};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
@@ -27,9 +28,16 @@ pub struct SceneContact {
     /// The other surface that it may touch; this or `obstacle`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<SceneSurface>,
-    /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
+    /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless. This or `law`.
     #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
-    pub friction: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    /// Another law than friction of one coefficient; this or `friction`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<SceneLaw>,
+    /// Compliance of the surfaces themselves, in series with the bodies; none when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compliance: Option<SceneCompliance>,
     /// Gaps are measured between the smooth surfaces that straight facets stand for, as the turns
     /// between these say; `false`: between the facets. Left out, they are rounded.
     pub rounded: Option<bool>,
@@ -98,7 +106,7 @@ impl SceneContact {
         Self {
             group: group.to_owned(),
             obstacle: Some(obstacle),
-            friction,
+            friction: Some(friction),
             ..Self::default()
         }
     }
@@ -114,7 +122,7 @@ impl SceneContact {
                 body: Some(other[0].to_owned()),
                 group: other[1].to_owned(),
             }),
-            friction,
+            friction: Some(friction),
             ..Self::default()
         }
     }
@@ -134,16 +142,16 @@ impl SceneContact {
         self
     }
 
+    /// The same under a law in place of its coefficient of friction.
+    #[must_use]
+    pub fn with_law(mut self, law: SceneLaw) -> Self {
+        (self.friction, self.law) = (None, Some(law));
+        self
+    }
+
     /// The contact in the terms of mechanics.
     pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
         let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
-        if !(self.friction >= 0.0 && self.friction.is_finite()) {
-            return Err(Error::OutOfRange {
-                place: format!("{place}.friction"),
-                value: self.friction,
-                accepted: "0 <= friction < infinity",
-            });
-        }
         finite(format!("{place}.gap"), self.gap)?;
         let mesh = &bodies[body].mesh;
         let opposite = match (&self.obstacle, &self.against) {
@@ -163,15 +171,56 @@ impl SceneContact {
                 });
             }
         };
+        let (friction, law) = self.law(place, body, &opposite, bodies)?;
         Ok(ContactPair {
             place: place.to_owned(),
             body,
             facets: selection::facets(mesh, &format!("{place}.group"), &self.group)?,
             opposite,
-            friction: self.friction,
+            friction,
+            law,
             rounded: self.rounded.unwrap_or(true),
             gap: self.gap,
         })
+    }
+}
+
+impl SceneContact {
+    /// Coefficient of friction, and what else the contacts obey.
+    fn law(
+        &self,
+        place: &str,
+        body: usize,
+        opposite: &Opposite,
+        bodies: &[Body],
+    ) -> Result<(f64, PairLaw), Error> {
+        let compliance = self.compliance.unwrap_or_default();
+        let compliance = [compliance.normal, compliance.tangential];
+        let (friction, law) = match (self.friction, &self.law) {
+            (Some(friction), None) => {
+                let friction = coefficient(format!("{place}.friction"), friction)?;
+                (friction, PairLaw::default())
+            }
+            (None, Some(law)) => {
+                let mut sides = vec![(body, &bodies[body])];
+                if let Opposite::Surface { body, .. } = opposite {
+                    sides.push((*body, &bodies[*body]));
+                }
+                let dimension = bodies[body].mesh.dimension;
+                law.resolve(&format!("{place}.law"), &sides, dimension)?
+            }
+            (given, _) => {
+                return Err(Error::NotAccepted {
+                    place: place.to_owned(),
+                    found: match given {
+                        Some(_) => "both `friction` and `law`".to_owned(),
+                        None => "neither `friction` nor `law`".to_owned(),
+                    },
+                    accepted: "one of the two".to_owned(),
+                });
+            }
+        };
+        Ok((friction, PairLaw { compliance, ..law }))
     }
 }
 

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! bodies    mesh, model, materials, supports, loads, springs
-//! contacts  group of surface facets, rigid obstacle, friction, gap
+//! contacts  group of surface facets, rigid obstacle, friction or another law, gap
 //! steps     instants, factors of loads and supports, motions of obstacles, gaps
 //! settings  tolerance, max_sweeps, time_limit
 //! ```
@@ -21,6 +21,7 @@ mod half_space;
 mod heat;
 mod height_map;
 mod json;
+mod law;
 mod load;
 mod load_keys;
 mod mesh_source;
@@ -53,6 +54,7 @@ pub use half_space::{
     SceneSurfaceShape, SceneSurroundings,
 };
 pub use heat::{NodalFile, SceneTemperature};
+pub use law::{NotConvex, SceneCompliance, SceneFrictionTable, SceneLaw};
 pub use load::SceneLoad;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
 pub use saved_state::SavedState;
@@ -498,10 +500,8 @@ mod tests {
                     center: vec![0.0, -2.0],
                     radius: 1.5,
                 }),
-                against: None,
-                friction: 0.0,
-                rounded: None,
-                gap: 0.0,
+                friction: Some(0.0),
+                ..SceneContact::default()
             }],
             ..Scene::default()
         };

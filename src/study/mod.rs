@@ -33,7 +33,7 @@ use ladder::Ladder;
 ///
 /// # Errors
 ///
-/// A plan outside its ranges or one that does not fit the scene, a scene with load steps, and
+/// A plan outside its ranges or one that does not fit the scene, a scene with load steps or other laws than friction, and
 /// whatever is wrong with the scene on any of the meshes. A loop that does not converge is no
 /// error: the study says so.
 pub fn study(
@@ -42,6 +42,7 @@ pub fn study(
     mut progress: impl FnMut(Progress<'_>),
 ) -> Result<Study, Error> {
     plan.validate()?;
+    check_laws(scene)?;
     let scenes = plan.scenes(scene)?;
     let mut ladder = Ladder::default();
     let mut runs = Vec::new();
@@ -69,4 +70,19 @@ pub fn study(
         doing,
     });
     Ok(Study::new(&scene.title, &scene.units, meshes, runs))
+}
+
+/// The loops that are compared know Coulomb's law alone, with the coefficient that the study varies.
+fn check_laws(scene: &Scene) -> Result<(), Error> {
+    let mut contacts = scene.contacts.iter();
+    let other = contacts.position(|contact| contact.law.is_some() || contact.compliance.is_some());
+    match other {
+        None => Ok(()),
+        Some(at) => Err(Error::NotAccepted {
+            place: format!("contacts[{at}]"),
+            found: "a law or a compliance of its own".to_owned(),
+            accepted: "`friction` alone in a study, whose loops know Coulomb's law; `dpana solve` knows all laws"
+                .to_owned(),
+        }),
+    }
 }

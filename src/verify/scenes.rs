@@ -48,7 +48,7 @@ pub(super) fn on(obstacle: SceneObstacle, body: SceneBody, group: &str, friction
         contacts: vec![SceneContact {
             group: group.to_owned(),
             obstacle: Some(obstacle),
-            friction,
+            friction: Some(friction),
             ..SceneContact::default()
         }],
         ..Scene::default()
@@ -74,9 +74,8 @@ pub(super) fn pair(bodies: [SceneBody; 2], groups: [&str; 2], friction: f64) -> 
             body: Some(bodies[1].name.clone()),
             group: other,
         }),
-        friction,
-        rounded: None,
-        gap: 0.0,
+        friction: Some(friction),
+        ..SceneContact::default()
     };
     Scene {
         bodies: bodies.to_vec(),

@@ -69,9 +69,8 @@ impl Pressing {
             body: None,
             obstacle: Some((self.obstacle)(motion)),
             against: None,
-            friction: self.friction,
-            rounded: None,
-            gap: 0.0,
+            friction: Some(self.friction),
+            ..SceneContact::default()
         });
         certified(&scene)
     }

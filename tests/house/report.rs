@@ -49,6 +49,7 @@ fn pair(place: &str, opposite: Opposite) -> ContactPair {
         facets: vec![],
         opposite,
         friction: 0.5,
+        law: dpana::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
     }

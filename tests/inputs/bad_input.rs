@@ -202,7 +202,7 @@ fn a_scene_built_in_code_with_a_nan_is_refused() {
         "{message}"
     );
     let mut slippery = scene.clone();
-    slippery.contacts[0].friction = f64::NAN;
+    slippery.contacts[0].friction = Some(f64::NAN);
     let message = slippery.mechanics().unwrap_err().to_string();
     assert!(message.contains("contacts[0].friction: NaN"), "{message}");
     let mut loose = scene;

@@ -53,9 +53,8 @@ pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneC
             body: Some(other[0].to_owned()),
             group: other[1].to_owned(),
         }),
-        friction,
-        rounded: None,
-        gap: 0.0,
+        friction: Some(friction),
+        ..SceneContact::default()
     }
 }
 

@@ -60,6 +60,7 @@ fn on_floor(index: usize, body: &Body) -> ContactPair {
             normal: [0.0, 1.0, 0.0],
         }),
         friction: 0.3,
+        law: dpana::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
     }

@@ -15,6 +15,7 @@ mod fits;
 mod floating;
 mod goodman_coupled;
 mod hertz;
+mod laws;
 mod metamorphic;
 mod patch;
 mod quadratic;

@@ -321,6 +321,7 @@ fn pair(bodies: &[Body], level: usize, random: &mut Random) -> ContactPair {
             facets: facets(&bodies[level - 1].mesh, "top"),
         },
         friction,
+        law: dpana::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
     }

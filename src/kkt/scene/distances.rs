@@ -84,6 +84,15 @@ impl Nearby {
         }
     }
 
+    /// The same sides moved together by what is between them, in metre; `given` is negative where that is pressed.
+    pub(super) fn apart(self, given: f64) -> Self {
+        let gap = Range {
+            low: self.gap.low - given,
+            high: self.gap.high - given,
+        };
+        Self { gap, ..self }
+    }
+
     /// How deep all of a side is in the other.
     pub(super) fn overlap(&self, rounded: f64, contact: usize) -> Measure {
         let depth = (-self.gap.low).max(0.0);

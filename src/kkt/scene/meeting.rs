@@ -58,7 +58,7 @@ impl Meeting {
         if let Opposite::Surface { body, facets } = &pair.opposite {
             skins.extend(skin(*body, facets));
         }
-        let samples: Vec<Sample> = match (&pair.opposite, &skins[..]) {
+        let mut samples: Vec<Sample> = match (&pair.opposite, &skins[..]) {
             (Opposite::Obstacle(obstacle), [own]) => own
                 .samples()
                 .filter_map(|place| face(place, obstacle))
@@ -70,6 +70,10 @@ impl Meeting {
             }
             _ => Vec::new(),
         };
+        if pair.law.bilateral {
+            // Tied as they are drawn: what is between the sides is none of the contact's business.
+            samples.iter_mut().for_each(|sample| sample.distance = 0.0);
+        }
         let mut of_face = [0, 1].map(|side| {
             let faces = skins.get(side).map_or(0, |skin: &Skin| skin.faces.len());
             vec![Vec::new(); faces]

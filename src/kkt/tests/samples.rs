@@ -49,6 +49,7 @@ pub(crate) fn pairs() -> Vec<ContactPair> {
         facets: Vec::new(),
         opposite,
         friction: 0.5,
+        law: crate::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
     };

@@ -65,9 +65,8 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
                 body: None,
                 group: any(facets.get(1)),
             }),
-            friction: 0.3,
-            rounded: None,
-            gap: 0.0,
+            friction: Some(0.3),
+            ..SceneContact::default()
         }],
         ..Scene::default()
     }
