@@ -21,7 +21,7 @@
 //! | shear cap | τ |
 //! | given bound (Tresca) | a, with μ = 0: it holds at contacts that are open too |
 //! | cohesion | c, and a ≥ μ c; a contact that parts goes on pulling by c, as the set of no pressure knows no past |
-//! | rough | sticks |
+//! | rough | sticks; where normals and tangents are strongly coupled there may be no such state, where a large μ has one |
 //! | no separation | bilateral; friction where pressed |
 //! | bonded | bilateral, sticks |
 //! | orthotropic | the ellipse: friction μ along its direction, μ₂ across |
@@ -120,8 +120,9 @@ impl Ellipse {
     fn check(&self, place: &str) -> Result<(), Error> {
         let [x, y] = self.direction;
         let size = x.hypot(y);
-        // Written so that NaN is refused as well.
-        if !((size - 1.0).abs() < 1e-9) {
+        // False for NaN.
+        let unit = (size - 1.0).abs() < 1e-9;
+        if !unit {
             return Err(Error::OutOfRange {
                 place: format!("{place}.ellipse.direction"),
                 value: size,

@@ -305,7 +305,10 @@ fn a_loose_block_holds_up_to_its_law_and_moves_off_beyond() {
             "{law:?}, {friction}, {down}, {pull}: {outcome:?}"
         );
         if let Some(failure) = outcome.failure {
-            assert!(failure.proof.least_reaction > 10.0, "{failure:?}");
+            assert!(
+                failure.elastic || failure.proof.least_reaction > 10.0,
+                "{failure:?}"
+            );
         }
     }
 }
@@ -317,75 +320,88 @@ struct Numbers {
     settings: Settings,
 }
 
-fn law() -> impl Strategy<Value = Law> {
+fn law(rough: bool) -> impl Strategy<Value = Law> {
     let (size, layer) = (0.05..0.5_f64, 0.0..0.3_f64);
     let layers = (any::<bool>(), layer.clone(), layer);
     let ellipse = (0.0..6.3_f64, 0.3..3.0_f64);
-    (0..9_usize, size.clone(), size, ellipse, layers).prop_map(
-        |(kind, a, b, (angle, ratio), (layers, normal, tangential))| {
-            let (sin, cos) = angle.sin_cos();
-            let ellipse = Some(Ellipse {
-                direction: [cos, sin],
-                ratio,
-            });
-            let none = Law::default();
-            let law = match kind {
-                0 => none,
-                1 => Law { cap: a, ..none },
-                2 => Law { shear: a, ..none },
-                // Friction is up to one.
-                3 => Law {
-                    tension: a,
-                    shear: a + b,
-                    ..none
-                },
-                4 => Law {
-                    tension: a,
-                    shear: a + b,
-                    cap: a + b + 0.1,
-                    ..none
-                },
-                5 => Law {
-                    bilateral: true,
-                    sticks: true,
-                    ..none
-                },
-                6 => Law {
-                    bilateral: true,
-                    ..none
-                },
-                7 => Law {
-                    sticks: true,
-                    ..none
-                },
-                _ => Law { ellipse, ..none },
-            };
-            Law {
-                compliance: if layers {
-                    [normal, tangential]
-                } else {
-                    [0.0; 2]
-                },
-                ..law
-            }
-        },
+    (
+        0..if rough { 9_usize } else { 8 },
+        size.clone(),
+        size,
+        ellipse,
+        layers,
     )
+        .prop_map(
+            |(kind, a, b, (angle, ratio), (layers, normal, tangential))| {
+                let (sin, cos) = angle.sin_cos();
+                let ellipse = Some(Ellipse {
+                    direction: [cos, sin],
+                    ratio,
+                });
+                let none = Law::default();
+                let law = match kind {
+                    0 => none,
+                    1 => Law { cap: a, ..none },
+                    2 => Law { shear: a, ..none },
+                    // Friction is up to one.
+                    3 => Law {
+                        tension: a,
+                        shear: a + b,
+                        ..none
+                    },
+                    4 => Law {
+                        tension: a,
+                        shear: a + b,
+                        cap: a + b + 0.1,
+                        ..none
+                    },
+                    5 => Law {
+                        bilateral: true,
+                        sticks: true,
+                        ..none
+                    },
+                    6 => Law {
+                        bilateral: true,
+                        ..none
+                    },
+                    7 => Law { ellipse, ..none },
+                    _ => Law {
+                        sticks: true,
+                        ..none
+                    },
+                };
+                Law {
+                    compliance: if layers {
+                        [normal, tangential]
+                    } else {
+                        [0.0; 2]
+                    },
+                    ..law
+                }
+            },
+        )
 }
 
-fn numbers() -> impl Strategy<Value = Numbers> {
-    (1..=12_usize, 1..=2_usize, 0.05..0.5_f64).prop_flat_map(|(count, tangents, shift)| {
+/// Rough contacts, which need not have a state where normals and tangents are strongly coupled, are clearly pressed or
+/// open, and coupled little.
+fn numbers(rough: bool) -> impl Strategy<Value = Numbers> {
+    let least = if rough { 3.0 } else { 0.0 };
+    (1..=12_usize, 1..=2_usize, 0.05..0.5_f64).prop_flat_map(move |(count, tangents, shift)| {
         let size = count * (1 + tangents);
         (
-            prop::collection::vec((law(), 0.0..0.8_f64, -0.3..0.3_f64), count),
+            prop::collection::vec((law(rough), 0.0..0.8_f64, -0.3..0.3_f64), count),
             prop::collection::vec(-1.0..1.0_f64, size),
             prop::collection::vec(-1.0..1.0_f64, size * size),
         )
-            .prop_map(move |(contacts, free, entries)| {
+            .prop_map(move |(contacts, mut free, entries)| {
+                for u in free.iter_mut().step_by(1 + tangents).filter(|_| rough) {
+                    *u += u.signum();
+                }
                 let a = Mat::from_fn(size, size, |i, j| entries[i * size + j]);
                 let product = a.transpose() * &a;
                 let compliance = Mat::from_fn(size, size, |i, j| {
                     let (i, j) = (i.min(j), i.max(j));
-                    product[(i, j)] / size as f64 + if i == j { shift } else { 0.0 }
+                    product[(i, j)] / size as f64 + if i == j { least + shift } else { 0.0 }
                 });
                 let operator = Operator::from_compliance(compliance).unwrap();
                 let friction = contacts.iter().map(|contact| contact.1).collect();
@@ -482,14 +498,14 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 96, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
-    fn contacts_under_all_laws_at_once_keep_them(numbers in numbers()) {
+    fn contacts_under_all_laws_at_once_keep_them(numbers in any::<bool>().prop_flat_map(numbers)) {
         let outcome = solve(&numbers.problem, &numbers.settings).unwrap();
         check(&numbers, &outcome)?;
         prop_assert!(outcome.work.sweeps <= 5, "{:?}", outcome.work);
     }
 
     #[test]
-    fn from_a_neighbour_and_from_other_starts_they_are_kept_too(numbers in numbers()) {
+    fn from_a_neighbour_and_from_other_starts_they_are_kept_too(numbers in any::<bool>().prop_flat_map(numbers)) {
         let (problem, settings) = (&numbers.problem, &numbers.settings);
         let outcome = solve(problem, settings).unwrap();
         prop_assert_eq!(outcome.status, Status::Certified);
@@ -507,7 +523,7 @@ proptest! {
 
     /// The certificate is honest: a reaction that is off by a part in a thousand has none.
     #[test]
-    fn the_judge_rejects_a_disturbed_answer(numbers in numbers(), pick in any::<prop::sample::Index>()) {
+    fn the_judge_rejects_a_disturbed_answer(numbers in any::<bool>().prop_flat_map(numbers), pick in any::<prop::sample::Index>()) {
         let mut outcome = solve(&numbers.problem, &numbers.settings).unwrap();
         let scale = outcome.reaction.iter().fold(0.0_f64, |size, t| size.max(t.abs()));
         prop_assume!(scale > 0.0);
