@@ -13,6 +13,9 @@
 //! Bodies that only contact holds have one program over all Coulomb cones in place of both
 //! half-steps, with their equilibrium as rows (H8).
 //!
+//! Contacts may obey laws beyond Coulomb's (`problem::Law`): bounds of friction and of normal reactions differ, sets that
+//! lie elsewhere or are no discs are moved first (D15). Without any the work is the same to the last step.
+//!
 //! A load step starts from the last state instead: its reaction tells which contacts are open,
 //! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
 //! step on what each contact does there.

@@ -105,3 +105,40 @@ impl JudgedLaw {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::problem::Ellipse;
+
+    #[test]
+    fn radii_grow_from_glue_s_bound_to_the_cap() {
+        // a = 2, μ = ½, c = 1, τ = 4: p = −1 leaves 1.5, and from p = 4 on nothing is added.
+        let law = JudgedLaw::new(Some(&Law {
+            tension: 1.0,
+            shear: 2.0,
+            cap: 4.0,
+            ..Law::default()
+        }));
+        let radii = [2.0, 1.0, 0.0, -2.0, -4.0, -9.0].map(|t| law.radius(0.5, t));
+        assert_eq!(radii, [1.5, 1.5, 2.0, 3.0, 4.0, 4.0]);
+        // Sliding and opening by ½: 2 − ½ · 1 at p = −1, and ½ · 1 of the normal; never more than 4 of friction.
+        assert_eq!(law.resistance(0.5, -0.5, [1.0, 0.0]), [2.0, -0.5]);
+    }
+
+    #[test]
+    fn an_ellipse_s_forces_and_velocities_keep_their_work() {
+        let law = JudgedLaw::new(Some(&Law {
+            ellipse: Some(Ellipse {
+                direction: [0.6, 0.8],
+                ratio: 3.0,
+            }),
+            ..Law::default()
+        }));
+        let (t, u) = ([2.0, -1.0], [0.3, 0.7]);
+        let ([a, b], [x, y]) = (law.rounded(t), law.squeezed(u));
+        assert!((a * x + b * y - (t[0] * u[0] + t[1] * u[1])).abs() < 1e-15);
+        let back = law.unrounded([a, b]);
+        assert!((back[0] - t[0]).abs() < 1e-15 && (back[1] - t[1]).abs() < 1e-15);
+    }
+}

@@ -50,7 +50,7 @@ impl Variant {
     ///
     /// # Errors
     ///
-    /// Settings outside their range, a relaxation outside (0, 1], bodies that float.
+    /// Settings outside their range, a relaxation outside (0, 1], bodies that float, laws beyond Coulomb's.
     pub fn solve(self, problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
         settings.validate()?;
         self.check(problem)?;
@@ -75,6 +75,13 @@ impl Variant {
                 place: "variant".to_owned(),
                 found: format!("{self:?}"),
                 accepted: "bodies that their supports hold".to_owned(),
+            });
+        }
+        if problem.laws().is_some() {
+            return Err(Error::NotAccepted {
+                place: "variant".to_owned(),
+                found: "contacts with laws of their own".to_owned(),
+                accepted: "Coulomb's law alone, which the variants are compared under".to_owned(),
             });
         }
         match self {

@@ -487,6 +487,21 @@ fn check(numbers: &Numbers, outcome: &Outcome) -> Result<(), TestCaseError> {
         .reaction
         .iter()
         .fold(1.0_f64, |size, t| size.max(t.abs()));
+    let measured = outcome.verdict.certificate;
+    for worst in [
+        measured.penetration,
+        measured.tension,
+        measured.complementarity,
+        measured.disc_excess,
+        measured.dissipation_defect,
+    ] {
+        prop_assert!(worst.scaled < 1e-9, "{:?}", measured);
+    }
+    prop_assert!(
+        measured.bipotential_gap.abs() < 1e-9 * size,
+        "{:?}",
+        measured
+    );
     for contact in 0..numbers.problem.contacts() {
         let found = violation(&numbers.problem, outcome, contact);
         prop_assert!(found < 1e-10 * size, "contact {}: {:e}", contact, found);
