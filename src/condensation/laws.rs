@@ -18,7 +18,7 @@ pub(crate) fn friction(surface: &ContactSurface, pairs: &[ContactPair]) -> Vec<f
     nodes
         .map(|contact| {
             let pair = &pairs[contact.pair];
-            pair.friction_at(contact) * narrowed(&pair.law, contact)
+            pair.law.friction_at(pair.friction, contact) * narrowed(&pair.law, contact)
         })
         .collect()
 }

@@ -175,7 +175,11 @@ fn contacts(
             pair: 0,
             position,
             frame,
-            tangents: if pair.is_smooth() { 0 } else { kept },
+            tangents: if pair.law.is_smooth(pair.friction) {
+                0
+            } else {
+                kept
+            },
             initial_gap: node.initial_gap,
             area: node.weight * body.model.depth(),
             bulge: node.bulge,

@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use super::{ContactNode, ContactPair};
+use super::node::ContactNode;
 use crate::body::Facet;
 use crate::error::Error;
 
@@ -123,22 +123,21 @@ impl PairLaw {
     }
 }
 
-impl ContactPair {
+impl PairLaw {
     /// Whether no friction acts anywhere: its contacts have no tangents.
-    pub(super) fn is_smooth(&self) -> bool {
-        let law = &self.law;
-        let anywhere = match &law.places {
+    pub(super) fn is_smooth(&self, friction: f64) -> bool {
+        let anywhere = match &self.places {
             None => false,
             Some(Places::Regions(regions)) => regions.iter().any(|region| region.friction > 0.0),
             Some(Places::Along { rows, .. }) => rows.iter().any(|row| row[1] > 0.0),
         };
-        self.friction == 0.0 && !anywhere && !law.sticks && law.shear == 0.0
+        friction == 0.0 && !anywhere && !self.sticks && self.shear == 0.0
     }
 
-    pub(super) fn check_law(&self) -> Result<(), Error> {
-        let law = &self.law;
+    pub(super) fn check(&self, place: &str, friction: f64) -> Result<(), Error> {
+        let law = self;
         let refuse = |key: &str, value: f64, accepted| {
-            let place = format!("{}.{key}", self.place);
+            let place = format!("{place}.{key}");
             Err(Error::OutOfRange {
                 place,
                 value,
@@ -162,48 +161,48 @@ impl ContactPair {
                 "a cap > 0 that is not below shear",
             );
         }
-        if law.shear < self.friction * law.tension {
+        if law.shear < friction * law.tension {
             let accepted = "shear >= friction × tension, so that what pulls can still hold";
             return refuse("law.shear", law.shear, accepted);
         }
         Ok(())
     }
 
-    /// Coefficient of friction at a contact of the pair.
+    /// Coefficient of friction at a contact of a pair with this coefficient.
     #[must_use]
-    pub fn friction_at(&self, contact: &ContactNode) -> f64 {
-        match &self.law.places {
-            None => self.friction,
+    pub fn friction_at(&self, friction: f64, contact: &ContactNode) -> f64 {
+        match &self.places {
+            None => friction,
             Some(Places::Along { direction, rows }) => {
                 let along = direction.iter().zip(contact.position);
                 at(rows, along.map(|(d, x)| d * x).sum())
             }
-            Some(Places::Regions(regions)) => self.friction_in(regions, contact),
+            Some(Places::Regions(regions)) => friction_in(friction, regions, contact),
         }
     }
+}
 
-    /// The mean of the nodes that the contact moves with, on the side where the regions are.
-    fn friction_in(&self, regions: &[Region], contact: &ContactNode) -> f64 {
-        let on = |body: usize| regions.iter().any(|region| region.body == body);
-        let (body, nodes) = match &contact.opposite {
-            Some(opposite) if !on(contact.body) => (opposite.body, &opposite.nodes),
-            _ => (contact.body, &contact.own),
-        };
-        let mut of_node: HashMap<usize, [f64; 2]> = HashMap::new();
-        for region in regions.iter().filter(|region| region.body == body) {
-            for &node in region.facets.iter().flat_map(|facet| &facet.nodes) {
-                let [sum, count] = of_node.entry(node).or_default();
-                (*sum, *count) = (*sum + region.friction, *count + 1.0);
-            }
+/// The mean of the nodes that the contact moves with, on the side where the regions are.
+fn friction_in(elsewhere: f64, regions: &[Region], contact: &ContactNode) -> f64 {
+    let on = |body: usize| regions.iter().any(|region| region.body == body);
+    let (body, nodes) = match &contact.opposite {
+        Some(opposite) if !on(contact.body) => (opposite.body, &opposite.nodes),
+        _ => (contact.body, &contact.own),
+    };
+    let mut of_node: HashMap<usize, [f64; 2]> = HashMap::new();
+    for region in regions.iter().filter(|region| region.body == body) {
+        for &node in region.facets.iter().flat_map(|facet| &facet.nodes) {
+            let [sum, count] = of_node.entry(node).or_default();
+            (*sum, *count) = (*sum + region.friction, *count + 1.0);
         }
-        let friction = |node: &usize| of_node.get(node).map_or(self.friction, |[sum, n]| sum / n);
-        let values = || nodes.iter().map(|(node, weight)| (friction(node), *weight));
-        let mean: f64 = values().map(|(mu, weight)| weight * mu).sum();
-        // Weights may be negative.
-        let least = values().fold(f64::INFINITY, |least, (mu, _)| least.min(mu));
-        let most = values().fold(0.0, |most: f64, (mu, _)| most.max(mu));
-        mean.max(least).min(most)
     }
+    let friction = |node: &usize| of_node.get(node).map_or(elsewhere, |[sum, n]| sum / n);
+    let values = || nodes.iter().map(|(node, weight)| (friction(node), *weight));
+    let mean: f64 = values().map(|(mu, weight)| weight * mu).sum();
+    // Weights may be negative.
+    let least = values().fold(f64::INFINITY, |least, (mu, _)| least.min(mu));
+    let most = values().fold(0.0, |most: f64, (mu, _)| most.max(mu));
+    mean.max(least).min(most)
 }
 
 /// A value of rising rows.

@@ -126,7 +126,9 @@ impl View<'_> {
         let across = (0..dimension).filter(|axis| frame[0][*axis] == 0.0);
         let moved = own.flat_map(|node| across.clone().map(move |axis| (axis, given(node, axis))));
         let mut moved = moved.filter_map(|(axis, u)| Some((axis, u.filter(|u| *u != 0.0)?)));
-        if let (Some((axis, displacement)), true) = (moved.next(), !pair.is_smooth()) {
+        if let (Some((axis, displacement)), true) =
+            (moved.next(), !pair.law.is_smooth(pair.friction))
+        {
             return Err(Error::DraggedContact {
                 place: pair.place.clone(),
                 node,
@@ -148,7 +150,11 @@ impl View<'_> {
             pair: 0,
             position,
             frame,
-            tangents: if pair.is_smooth() { 0 } else { kept },
+            tangents: if pair.law.is_smooth(pair.friction) {
+                0
+            } else {
+                kept
+            },
             initial_gap,
             area: footing.area * self.body.model.depth(),
             bulge: footing.bulge,

@@ -61,7 +61,7 @@ impl ContactPair {
             });
         }
         check_finite(&place, &[self.friction])?;
-        self.check_law()?;
+        self.law.check(&self.place, self.friction)?;
         check_finite(&format!("{}.gap", self.place), &[self.gap])
     }
 }

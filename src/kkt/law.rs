@@ -8,8 +8,12 @@
 //!
 //! Written apart from the solver, which moves a set to the cone that it knows: here the set stays as it is stated.
 
-use super::state::length;
 use crate::problem::Law;
+
+/// `‖v‖` in the tangent plane.
+fn length([v_1, v_2]: [f64; 2]) -> f64 {
+    v_1.hypot(v_2)
+}
 
 /// The law of one contact; the default is Coulomb's.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -14,7 +14,7 @@
 //! |---|---|
 //! | the problem of a load step (C13) | `contact_problem` |
 //! | compliance, and stiffness where it exists | `operator` |
-//! | laws beyond Coulomb's (L4), (L5) | `law` |
+//! | laws beyond Coulomb's (L4), (L5) | `law`: `under_laws` |
 //! | bodies that contact alone holds (C3) | `floating` |
 //! | their motions, free of units | `velocity_basis` |
 
@@ -22,6 +22,7 @@ mod contact_problem;
 mod floating;
 mod law;
 mod operator;
+mod under_laws;
 pub(crate) mod velocity_basis;
 
 pub use contact_problem::ContactProblem;
