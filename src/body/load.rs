@@ -9,7 +9,8 @@
 //! its axis (`dA = 2πr ds`), so that all forces are those of the whole ring; a force at a node is
 //! that of the ring through it.
 
-use super::quadrature::{mapped, rule};
+use super::modes::mapped;
+use super::quadrature::rule;
 use super::{Body, Facet, Load};
 
 /// Nodal forces of the body's loads, in newton (plane strain: per metre of depth), entry

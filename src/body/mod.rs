@@ -13,6 +13,8 @@
 //! (B11) K_ab of a ring                                                          stiffness.rs
 //! (B12) σ = λ θ I + 2 μ ε + σ₀                    heat and initial stress           prestress.rs
 //! (B13) K_ab += ∫ N_a N_b k dA                    springs to the ground            foundation.rs
+//! (B14) C = λ̂ I⊗I + R                             constants that differ with direction  orthotropic.rs
+//! (B15) K = K_uu − K_uα K_αα⁻¹ K_αu                cells that bend as beams do           modes.rs
 //! ```
 //!
 //! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
@@ -31,7 +33,9 @@ mod axis;
 mod boundary;
 mod cell;
 mod check;
+mod condensed_cell;
 mod dilatation;
+mod element;
 mod entries;
 mod extremes;
 mod facet;
@@ -44,7 +48,12 @@ mod kinds;
 mod load;
 mod material;
 mod mesh;
+mod modes;
+mod orthotropic;
+mod part;
 mod prestress;
+mod prism;
+mod pyramid;
 mod quadrature;
 mod recovery;
 mod reference;
@@ -62,6 +71,7 @@ mod turned;
 
 pub use affine::Affine;
 pub(crate) use axis::Axis;
+pub use axis::Line;
 pub(crate) use axis::held_by_axis;
 pub(crate) use check::check;
 pub(crate) use extremes::extremes;
@@ -73,18 +83,17 @@ pub(crate) use kinds::MOST_FACET_NODES;
 pub(crate) use fixing::fixing_dofs;
 pub(crate) use foundation::foundation_forces;
 pub use foundation::{Foundation, Ground};
-pub use inertia::Line;
 pub use kinds::CellKind;
 pub(crate) use load::{load_vector, nodal_forces};
-pub(crate) use material::Lame;
 pub(crate) use mesh::Cell;
 pub use mesh::{Facet, Group, Mesh};
+pub use orthotropic::{MaterialAxes, Orthotropic};
 pub(crate) use recovery::stress_recovery;
 pub(crate) use rigid_modes::{RigidMode, free_modes};
 pub use spread::Wrench;
 pub(crate) use stiffness::stiffness;
 pub(crate) use stress::{cell_stress, nodal_stress, principal, von_mises};
-pub use structured::{box_mesh, graded, rectangle};
+pub use structured::{box_mesh, graded, mixed_box, rectangle};
 pub(crate) use support::prescribed;
 pub(crate) use support::prescribed_by;
 
@@ -107,7 +116,18 @@ pub enum Model {
     Solid,
 }
 
-/// An isotropic linear elastic material.
+/// What the displacement of a cell is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Formulation {
+    /// Of shape functions alone.
+    #[default]
+    Standard,
+    /// Of quadrilaterals of four nodes and hexahedra of eight also of incompatible modes (B15), with which they bend as
+    /// beams do; other cells as in `Standard`.
+    IncompatibleModes,
+}
+
+/// A linear elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Young's modulus `E > 0`, in pascal.
@@ -118,6 +138,8 @@ pub struct Material {
     pub expansion: f64,
     /// Mass density `ρ ≥ 0`, in kg/m³.
     pub density: f64,
+    /// Constants that differ with direction: they stand for all but the density.
+    pub orthotropic: Option<Orthotropic>,
 }
 
 /// Nodes whose displacement is given, component by component.
@@ -237,6 +259,8 @@ pub struct Body {
     pub loads: Vec<Load>,
     /// Springs to the ground.
     pub foundation: Vec<Foundation>,
+    /// What the displacement of a cell is made of.
+    pub formulation: Formulation,
 }
 
 impl Body {

@@ -93,6 +93,8 @@ impl Stock<'_, '_> {
             supports: Vec::new(),
             loads: Vec::new(),
             foundation: Vec::new(),
+            formulation: crate::scene::SceneFormulation::default(),
+            groups: std::collections::BTreeMap::new(),
         };
         let mut of_material: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for at in &cells {

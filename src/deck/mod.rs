@@ -20,7 +20,7 @@
 //! | `*STEP`, `*STATIC` | an instant per step and per time of an amplitude; `NLGEOM` is noted, displacements are small |
 //!
 //! What changes the mechanics and is not read is refused by file, line and keyword: shells, beams,
-//! wedges, tied surfaces, equations, rigid bodies, couplings, preloaded bolts, springs, thermal
+//! tied surfaces, equations, rigid bodies, couplings, preloaded bolts, springs, thermal
 //! expansion, plasticity, dynamics, contacts that come and go. What steers a numerical method, and
 //! steps of `*FREQUENCY`, are noted and left. Numbers keep the deck's units. Sources: Abaqus keywords
 //! reference, CalculiX CrunchiX user's manual.

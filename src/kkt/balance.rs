@@ -195,6 +195,7 @@ mod tests {
                     supports: vec![],
                     loads: vec![],
                     foundation: vec![],
+                    formulation: crate::body::Formulation::Standard,
                 },
                 stiffness: entries.to_csr(),
                 surface: ContactSurface {

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
-use super::read;
+use super::{read, selection};
 use crate::body::{CellKind, Mesh, box_mesh, graded, rectangle};
 use crate::error::Error;
 use crate::mesh_file::gmsh;
@@ -25,6 +25,10 @@ pub enum MeshSource {
         /// Factor on all positions, such as 0.001 for a mesh in mm; 1 when left out.
         #[cfg_attr(feature = "cli", schemars(default = "one", extend("exclusiveMinimum" = 0)))]
         scale: f64,
+        /// Groups of cells that the body is made of, as of one part of an assembly; all cells when left out.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        #[cfg_attr(feature = "cli", schemars(default))]
+        groups: Vec<String>,
     },
     /// A rectangle of quadrilaterals or triangles.
     Rectangle {
@@ -118,6 +122,14 @@ pub enum SolidCell {
     Hex27,
     /// Quadratic tetrahedra.
     Tet10,
+    /// Linear prisms, two per block along z.
+    Prism6,
+    /// Quadratic prisms.
+    Prism15,
+    /// Linear pyramids, six per block.
+    Pyramid5,
+    /// Quadratic pyramids.
+    Pyramid13,
 }
 
 impl From<Mesh> for MeshSource {
@@ -155,6 +167,7 @@ fn uniform<const AXES: usize>() -> [f64; AXES] {
 struct Keys {
     file: Option<PathBuf>,
     scale: Option<f64>,
+    groups: Option<Vec<String>>,
     rectangle: Option<Rectangle>,
     r#box: Option<BoxMesh>,
 }
@@ -162,15 +175,25 @@ struct Keys {
 impl<'de> Deserialize<'de> for MeshSource {
     fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
         let keys = Keys::deserialize(source)?;
-        match (keys.file, keys.scale, keys.rectangle, keys.r#box) {
-            (Some(file), scale, None, None) => Ok(Self::File {
+        match (
+            keys.file,
+            keys.scale,
+            keys.groups,
+            keys.rectangle,
+            keys.r#box,
+        ) {
+            (Some(_), _, Some(groups), ..) if groups.is_empty() => Err(de::Error::custom(
+                "expected at least one group of cells in `groups`",
+            )),
+            (Some(file), scale, groups, None, None) => Ok(Self::File {
                 file,
                 scale: scale.unwrap_or(one()),
+                groups: groups.unwrap_or_default(),
             }),
-            (None, None, Some(rectangle), None) => Ok(Self::Rectangle { rectangle }),
-            (None, None, None, Some(solid)) => Ok(Self::Box { solid }),
+            (None, None, None, Some(rectangle), None) => Ok(Self::Rectangle { rectangle }),
+            (None, None, None, None, Some(solid)) => Ok(Self::Box { solid }),
             _ => Err(de::Error::custom(
-                "expected exactly one of `file` (with or without `scale`), `rectangle` and `box`",
+                "expected exactly one of `file` (with or without `scale` and `groups`), `rectangle` and `box`",
             )),
         }
     }
@@ -180,8 +203,15 @@ impl MeshSource {
     /// Reads, generates or copies the mesh, of at most `room` nodes; files are relative to `folder`.
     pub(super) fn mesh(&self, place: &str, folder: &Path, room: usize) -> Result<Mesh, Error> {
         match self {
-            Self::File { file, scale } => {
-                let mesh = from_file(place, &folder.join(file), *scale)?;
+            Self::File {
+                file,
+                scale,
+                groups,
+            } => {
+                let mut mesh = from_file(place, &folder.join(file), *scale)?;
+                if !groups.is_empty() {
+                    mesh = part(&mesh, &format!("{place}.groups"), groups)?;
+                }
                 let place = || format!("{place}.file");
                 check_room(
                     place,
@@ -211,6 +241,10 @@ impl MeshSource {
                     SolidCell::Hex20 => CellKind::Hex20,
                     SolidCell::Hex27 => CellKind::Hex27,
                     SolidCell::Tet10 => CellKind::Tet10,
+                    SolidCell::Prism6 => CellKind::Prism6,
+                    SolidCell::Prism15 => CellKind::Prism15,
+                    SolidCell::Pyramid5 => CellKind::Pyramid5,
+                    SolidCell::Pyramid13 => CellKind::Pyramid13,
                 };
                 let axes = [("x", shape.x), ("y", shape.y), ("z", shape.z)];
                 let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading, room)?;
@@ -244,6 +278,15 @@ fn check_given(place: &str, mesh: &Mesh) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// The cells of some groups.
+fn part(mesh: &Mesh, place: &str, groups: &[String]) -> Result<Mesh, Error> {
+    let mut cells = Vec::new();
+    for (at, group) in groups.iter().enumerate() {
+        cells.extend_from_slice(selection::cells(mesh, &format!("{place}[{at}]"), group)?);
+    }
+    Ok(mesh.part(&cells))
 }
 
 fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {

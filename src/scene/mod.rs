@@ -23,6 +23,7 @@ mod height_map;
 mod json;
 mod load;
 mod load_keys;
+mod material;
 mod mesh_source;
 mod nodal_table;
 mod remeshed;
@@ -32,6 +33,7 @@ mod spelling;
 mod steps;
 mod support;
 mod table;
+mod transverse;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -45,8 +47,8 @@ use crate::error::Error;
 
 pub use bare::BareProblem;
 pub use contact::{SceneContact, SceneObstacle, SceneSurface};
-pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
-pub use field::{SceneAffine, SceneAffineVector, SceneSpin, SceneTurn};
+pub use elastic_body::{SceneBody, SceneFormulation, SceneModel};
+pub use field::{SceneAffine, SceneAffineVector, SceneLine, SceneSpin, SceneTurn};
 pub use foundation::SceneFoundation;
 pub use half_space::{
     HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
@@ -54,12 +56,14 @@ pub use half_space::{
 };
 pub use heat::{NodalFile, SceneTemperature};
 pub use load::SceneLoad;
+pub use material::{SceneAxes, SceneMaterial, SceneOrthotropic};
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
 pub use saved_state::SavedState;
 pub(crate) use saved_state::{Exact, Fingerprint, exact, plain};
 pub use steps::SceneSteps;
 pub(crate) use steps::{LoadHistory, driven};
 pub use support::SceneSupport;
+pub use transverse::{CylindricalAxis, SceneAlong, SceneTransverse};
 
 pub(crate) use spelling::nearest;
 
@@ -490,6 +494,8 @@ mod tests {
                 supports: vec![],
                 loads: vec![],
                 foundation: vec![],
+                formulation: SceneFormulation::default(),
+                groups: std::collections::BTreeMap::new(),
             }],
             contacts: vec![SceneContact {
                 group: "bottom".into(),
@@ -577,6 +583,6 @@ mod tests {
         );
         let meshes = schema["$defs"]["MeshSource"]["anyOf"].as_array().unwrap();
         let of_meshes: Vec<_> = meshes.iter().map(keys).collect();
-        assert_eq!(of_meshes, ["file scale", "rectangle", "box"]);
+        assert_eq!(of_meshes, ["file groups scale", "rectangle", "box"]);
     }
 }

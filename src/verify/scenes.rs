@@ -27,6 +27,8 @@ pub(super) fn body(name: &str, mesh: Mesh, material: Elastic) -> SceneBody {
         supports: Vec::new(),
         loads: Vec::new(),
         foundation: Vec::new(),
+        formulation: crate::scene::SceneFormulation::default(),
+        groups: std::collections::BTreeMap::new(),
     }
 }
 

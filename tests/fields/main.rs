@@ -2,9 +2,11 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod cells;
 mod gaps;
 mod heat;
 mod loads;
+mod materials;
 mod springs;
 #[path = "../stacks/mod.rs"]
 mod stacks;

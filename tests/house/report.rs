@@ -39,6 +39,7 @@ fn body(name: &str, mesh: Mesh) -> Body {
         supports: vec![],
         loads: vec![],
         foundation: vec![],
+        formulation: dpana::body::Formulation::Standard,
     }
 }
 

@@ -195,7 +195,7 @@ fn numbers_that_json_cannot_hold_are_refused_where_they_stand() {
 fn a_scene_built_in_code_with_a_nan_is_refused() {
     let scene = Scene::from_json(&cube().to_string(), "").unwrap();
     let mut soft = scene.clone();
-    soft.bodies[0].materials[0].young = f64::NAN;
+    soft.bodies[0].materials[0].young = Some(f64::NAN);
     let message = soft.mechanics().unwrap_err().to_string();
     assert!(
         message.contains("bodies[0].materials[0].young: NaN"),

@@ -1,10 +1,11 @@
 //! Blocks on blocks: scenes of several bodies, built in code.
 #![allow(dead_code)]
 
-use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded, rectangle};
+use dpana::body::{CellKind, Group, Mesh, box_mesh, graded, rectangle};
 use dpana::report::Report;
 use dpana::scene::{
-    MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
+    MeshSource, SceneBody, SceneContact, SceneFormulation, SceneMaterial, SceneModel, SceneSupport,
+    SceneSurface,
 };
 use dpana::{Scene, Solution, Status, solve};
 
@@ -28,6 +29,8 @@ pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBod
         supports: Vec::new(),
         loads: Vec::new(),
         foundation: Vec::new(),
+        formulation: SceneFormulation::default(),
+        groups: std::collections::BTreeMap::new(),
     }
 }
 
@@ -76,39 +79,12 @@ pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
     (solution, report)
 }
 
-/// The cells of a group with their nodes and surface groups, as a mesh of its own.
+/// The cells of a group with what belongs to them, as a mesh of their own.
 pub(crate) fn part(mesh: &Mesh, group: &str) -> Mesh {
     let Group::Cells(cells) = &mesh.groups[group] else {
         unreachable!("{group} is no group of cells");
     };
-    let mut number = vec![None; mesh.nodes.len()];
-    let mut part = Mesh::new(mesh.dimension, Vec::new());
-    for &cell in cells {
-        let cell = mesh.cell(cell);
-        let nodes = cell.nodes.iter().map(|&node| {
-            *number[node].get_or_insert_with(|| {
-                part.nodes.push(mesh.nodes[node]);
-                part.nodes.len() - 1
-            })
-        });
-        let nodes: Vec<usize> = nodes.collect();
-        part.push_cell(cell.kind, &nodes);
-    }
-    for (name, group) in &mesh.groups {
-        let Group::Facets(facets) = group else {
-            continue;
-        };
-        let renumbered = facets.iter().filter_map(|facet| {
-            let nodes = facet.nodes.iter().map(|node| number[*node]);
-            let nodes = nodes.collect::<Option<Vec<usize>>>()?;
-            Some(Facet { nodes })
-        });
-        let facets: Vec<Facet> = renumbered.collect();
-        if !facets.is_empty() {
-            part.groups.insert(name.clone(), Group::Facets(facets));
-        }
-    }
-    part
+    mesh.part(cells)
 }
 
 /// The body with one component given at a node of its mesh.

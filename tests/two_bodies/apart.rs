@@ -39,6 +39,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             pressure,
         }],
         foundation: vec![],
+        formulation: dpana::body::Formulation::Standard,
     }
 }
 

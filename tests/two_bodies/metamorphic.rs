@@ -103,6 +103,7 @@ impl Assembly {
                 supports: Vec::new(),
                 loads: Vec::new(),
                 foundation: Vec::new(),
+                formulation: dpana::body::Formulation::Standard,
             });
             let apart = match touching {
                 true => 0.0,

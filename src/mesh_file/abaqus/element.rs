@@ -1,8 +1,8 @@
 //! The elements of decks that are read: their cells, the order of their nodes, their faces.
 //!
 //! ```text
-//! C3D4 C3D8 C3D10 C3D20      solids
-//! CPE, CPS, CAX 3 4 6 8      plane strain, plane stress, axisymmetric (x = r, y = z)
+//! C3D4 C3D5 C3D6 C3D8 C3D10 C3D15 C3D20      solids
+//! CPE, CPS, CAX 3 4 6 8                      plane strain, plane stress, axisymmetric (x = r, y = z)
 //! ```
 //!
 //! Letters behind the name (R, I, H, M, S) choose how the element is integrated and against what it
@@ -36,6 +36,7 @@ pub(crate) struct ElementKind {
 const HEX20: [usize; 20] = [
     0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 16, 9, 17, 10, 18, 19, 12, 15, 13, 14,
 ];
+const PRISM15: [usize; 15] = [0, 1, 2, 3, 4, 5, 6, 8, 12, 7, 13, 14, 9, 11, 10];
 const TET10: [usize; 10] = [0, 1, 2, 3, 4, 5, 6, 7, 9, 8];
 
 /// Corners of the faces S1, S2, …
@@ -48,14 +49,25 @@ const HEXAHEDRON: [&[usize]; 6] = [
     &[2, 6, 7, 3],
     &[3, 7, 4, 0],
 ];
+const PRISM: [&[usize]; 5] = [
+    &[0, 1, 2],
+    &[3, 5, 4],
+    &[0, 3, 4, 1],
+    &[1, 4, 5, 2],
+    &[2, 5, 3, 0],
+];
+const PYRAMID: [&[usize]; 5] = [
+    &[0, 1, 2, 3],
+    &[0, 4, 1],
+    &[1, 4, 2],
+    &[2, 4, 3],
+    &[3, 4, 0],
+];
 const TRIANGLE: [&[usize]; 3] = [&[0, 1], &[1, 2], &[2, 0]];
 const QUADRILATERAL: [&[usize]; 4] = [&[0, 1], &[1, 2], &[2, 3], &[3, 0]];
 
 /// Beginnings of names that are refused, and what they are.
-const REFUSED: [(&str, &str); 20] = [
-    ("C3D6", "a wedge"),
-    ("C3D15", "a wedge"),
-    ("C3D5", "a pyramid"),
+const REFUSED: [(&str, &str); 17] = [
     ("SPRING", "a spring"),
     ("SC", "a continuum shell"),
     ("S", "a shell"),
@@ -91,6 +103,9 @@ impl ElementKind {
         let (nodes, letters) = rest.split_at(digits);
         let cell = match (space, nodes) {
             (Space::Solid, "4") => CellKind::Tet4,
+            (Space::Solid, "5") => CellKind::Pyramid5,
+            (Space::Solid, "6") => CellKind::Prism6,
+            (Space::Solid, "15") => CellKind::Prism15,
             (Space::Solid, "8") => CellKind::Hex8,
             (Space::Solid, "10") => CellKind::Tet10,
             (Space::Solid, "20") => CellKind::Hex20,
@@ -113,6 +128,7 @@ impl ElementKind {
         match self.cell {
             CellKind::Hex20 => reordered(&HEX20),
             CellKind::Tet10 => reordered(&TET10),
+            CellKind::Prism15 => reordered(&PRISM15),
             _ => nodes.to_vec(),
         }
     }
@@ -122,6 +138,8 @@ impl ElementKind {
         let faces: &[&[usize]] = match self.cell {
             CellKind::Tet4 | CellKind::Tet10 => &TETRAHEDRON,
             CellKind::Hex8 | CellKind::Hex20 => &HEXAHEDRON,
+            CellKind::Prism6 | CellKind::Prism15 => &PRISM,
+            CellKind::Pyramid5 => &PYRAMID,
             CellKind::Tri3 | CellKind::Tri6 => &TRIANGLE,
             _ => &QUADRILATERAL,
         };
@@ -145,8 +163,8 @@ fn refusal(name: &str) -> String {
     let known = REFUSED.iter().find(|(start, _)| name.starts_with(start));
     let what = known.map_or(String::new(), |(_, what)| format!(", {what},"));
     format!(
-        "`TYPE={}`{what} is not read; accepted: C3D4, C3D8, C3D10, C3D20, and CPE, CPS, CAX of 3, \
-         4, 6 or 8 nodes",
+        "`TYPE={}`{what} is not read; accepted: C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, and \
+         CPE, CPS, CAX of 3, 4, 6 or 8 nodes",
         super::card::quote(name)
     )
 }
@@ -159,7 +177,8 @@ mod tests {
     #[test]
     fn every_face_is_a_facet_of_the_cell_and_no_two_are_the_same() {
         for name in [
-            "C3D4", "C3D10T", "C3D10M", "C3D8I", "C3D20RH", "CPE3", "CPS6", "CAX8R",
+            "C3D4", "C3D10T", "C3D10M", "C3D8I", "C3D20RH", "CPE3", "CPS6", "CAX8R", "C3D5",
+            "C3D6", "C3D15",
         ] {
             let Ok(kind) = ElementKind::new(name) else {
                 assert_eq!(name, "C3D10T");
@@ -175,12 +194,21 @@ mod tests {
     #[test]
     fn middle_nodes_stand_between_the_corners_of_the_deck_s_edges() {
         // C3D20: 9 to 12 go around the bottom, 13 to 16 around the top, 17 to 20 up. C3D10: 5, 6, 7
-        // around the first face, then up from its corners 1, 2, 3.
+        // around the first face, then up from its corners 1, 2, 3. C3D15 as C3D20.
         let ring = |from: usize| (0..4).map(move |i| (from + i, from + (i + 1) % 4));
         let uprights = (0..4).map(|i| (i, i + 4));
         let hexahedron: Vec<_> = ring(0).chain(ring(4)).chain(uprights).collect();
         let tetrahedron = vec![(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)];
-        for (name, edges) in [("C3D20", hexahedron), ("C3D10", tetrahedron)] {
+        let ring = |from: usize| (0..3).map(move |i| (from + i, from + (i + 1) % 3));
+        let prism: Vec<_> = ring(0)
+            .chain(ring(3))
+            .chain((0..3).map(|i| (i, i + 3)))
+            .collect();
+        for (name, edges) in [
+            ("C3D20", hexahedron),
+            ("C3D10", tetrahedron),
+            ("C3D15", prism),
+        ] {
             let kind = ElementKind::new(name).unwrap();
             let count = kind.cell.node_count();
             let deck = kind.cell_nodes(&(0..count).collect::<Vec<_>>());
@@ -197,7 +225,6 @@ mod tests {
     fn what_is_not_read_is_refused_by_what_it_is() {
         for (name, said) in [
             ("S8R", "a shell"),
-            ("C3D15", "a wedge"),
             ("SPRINGA", "a spring"),
             ("B32R", "a beam"),
             ("C3D8T", "`TYPE=C3D8T` is not read"),

@@ -38,16 +38,20 @@ impl Shape {
             12 => CellKind::Hex27,
             16 => CellKind::Quad8,
             17 => CellKind::Hex20,
+            6 => CellKind::Prism6,
+            7 => CellKind::Pyramid5,
+            18 => CellKind::Prism15,
+            19 => CellKind::Pyramid13,
             _ => {
                 let name = match number {
-                    6 => "prism",
-                    7 => "pyramid",
+                    13 => "prism of 18 nodes; `Mesh.SecondOrderIncomplete = 1;` makes 15 of them",
+                    14 => "pyramid of 14 nodes; `Mesh.SecondOrderIncomplete = 1;` makes 13 of them",
                     _ => "of another shape or order",
                 };
                 return Err(format!(
                     "element type {number} ({name}) is not read; expected points (15), lines \
-                     (1, 8), triangles (2, 9), quadrilaterals (3, 10, 16), tetrahedra (4, 11) \
-                     or hexahedra (5, 12, 17)"
+                     (1, 8), triangles (2, 9), quadrilaterals (3, 10, 16), tetrahedra (4, 11), \
+                     hexahedra (5, 12, 17), prisms (6, 18) or pyramids (7, 19)"
                 ));
             }
         };

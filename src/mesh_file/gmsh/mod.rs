@@ -310,7 +310,7 @@ mod tests {
                 "node 30 of a plane mesh lies at z = 4",
             ),
             ("3 2 2 7 1 10", "3 2 2 7 1 11", 20, "node 11 is not listed"),
-            ("3 2 2 7 1 10", "3 6 2 7 1 10", 20, "6 (prism)"),
+            ("3 2 2 7 1 10", "3 13 2 7 1 10", 20, "13 (prism of 18"),
             ("1 10 20 30\n", "1 10 20\n", 20, "the line ends"),
             ("1 10 20 30\n", "1 10 20 30 10\n", 20, "one word too many"),
         ] {

@@ -132,6 +132,11 @@ fn vtk_kind(kind: CellKind) -> (u8, &'static [usize]) {
         CellKind::Tet10 => (24, &[9, 8]),
         CellKind::Hex20 => (25, EDGES_THEN_FACES.split_at(12).0),
         CellKind::Hex27 => (29, &EDGES_THEN_FACES),
+        // The format's first triangle looks out of the cell.
+        CellKind::Prism6 => (13, &[0, 2, 1, 3, 5, 4]),
+        CellKind::Prism15 => (26, &[0, 2, 1, 3, 5, 4, 7, 9, 6, 13, 14, 12, 8, 11, 10]),
+        CellKind::Pyramid5 => (14, &[]),
+        CellKind::Pyramid13 => (27, &[5, 8, 10, 6, 7, 9, 11, 12]),
     }
 }
 
@@ -142,6 +147,27 @@ mod tests {
     /// Nodes between which those of a quadratic cell stand, in VTK's order after the corners: the
     /// edges, then the corners of faces (VTK, vtkCellType and its cells' documentation).
     const TETRAHEDRON: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]];
+    const PRISM: [&[usize]; 9] = [
+        &[0, 1],
+        &[1, 2],
+        &[2, 0],
+        &[3, 4],
+        &[4, 5],
+        &[5, 3],
+        &[0, 3],
+        &[1, 4],
+        &[2, 5],
+    ];
+    const PYRAMID: [&[usize]; 8] = [
+        &[0, 1],
+        &[1, 2],
+        &[2, 3],
+        &[3, 0],
+        &[0, 4],
+        &[1, 4],
+        &[2, 4],
+        &[3, 4],
+    ];
     const HEXAHEDRON: [&[usize]; 18] = [
         &[0, 1],
         &[1, 2],
@@ -169,6 +195,8 @@ mod tests {
             (CellKind::Tet10, &TETRAHEDRON[..]),
             (CellKind::Hex20, &HEXAHEDRON[..12]),
             (CellKind::Hex27, &HEXAHEDRON[..]),
+            (CellKind::Prism15, &PRISM[..]),
+            (CellKind::Pyramid13, &PYRAMID[..]),
         ] {
             let (_, moved) = vtk_kind(kind);
             let order: Vec<usize> = (0..kind.node_count() - moved.len())
@@ -177,7 +205,7 @@ mod tests {
             for (place, corners) in (kind.corner_count()..).zip(between) {
                 let found = kind.position(order[place]);
                 for (axis, found) in found.into_iter().enumerate() {
-                    let sum: f64 = corners.iter().map(|c| kind.position(*c)[axis]).sum();
+                    let sum: f64 = corners.iter().map(|c| kind.position(order[*c])[axis]).sum();
                     assert_eq!(found, sum / corners.len() as f64, "{kind:?} {place}");
                 }
             }

@@ -56,6 +56,8 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
             loads: vec![load],
             mesh: MeshSource::Given(mesh),
  foundation: Vec::new(),
+formulation: dpana::scene::SceneFormulation::default(),
+groups: std::collections::BTreeMap::new(),
         }],
         contacts: vec![SceneContact {
             group: any(facets.first()),
