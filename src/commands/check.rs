@@ -41,12 +41,13 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
             )?;
         }
     }
-    for (at, (contact, stated)) in mechanics.contacts.iter().zip(&scene.contacts).enumerate() {
+    for (at, contact) in mechanics.contacts.iter().enumerate() {
+        let stated = scene.contacts.get(at).map(|stated| stated.group.as_str());
         let contacts = surface.nodes.iter().filter(|node| node.pair == at).count();
         writeln!(
             out,
             "contact `{}`: {} facets, friction {}, {contacts} contacts",
-            stated.group,
+            stated.unwrap_or(&contact.place),
             contact.facets.len(),
             contact.friction,
         )?;

@@ -9,6 +9,7 @@
 //! | all contacts of a scene | `surface` |
 //! | normal and tangents of a contact | `frame` |
 //! | facets that face the other side | `facing` |
+//! | skins that face each other within a distance | `facing_skins` |
 //! | corners and the nodes around them (C16) | `corner_weights` |
 //! | what straight facets leave of a round surface (C18) | `rounding`: `turning_edges` |
 //! | gaps that are nowhere less than the least distance (C20) | `lift` |
@@ -19,6 +20,7 @@ mod between_bodies;
 mod carrying_side;
 mod corner_weights;
 mod facing;
+mod facing_skins;
 pub(crate) mod frame;
 mod lift;
 pub(crate) mod mortar;
@@ -31,6 +33,7 @@ mod surface;
 mod turn;
 mod turning_edges;
 
+pub(crate) use facing_skins::facing_skins;
 pub use node::{ContactNode, OppositeNodes};
 pub(crate) use obstacle::Closest;
 pub use obstacle::Obstacle;

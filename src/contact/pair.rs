@@ -45,6 +45,16 @@ pub enum Opposite {
 }
 
 impl ContactPair {
+    /// Whether it is one of two bodies, whichever it names first.
+    pub(crate) fn joins(&self, bodies: [usize; 2]) -> bool {
+        match &self.opposite {
+            Opposite::Obstacle(_) => false,
+            Opposite::Surface { body, .. } => {
+                [self.body, *body] == bodies || [*body, self.body] == bodies
+            }
+        }
+    }
+
     pub(super) fn check(&self, dimension: usize) -> Result<(), Error> {
         if let Opposite::Obstacle(obstacle) = &self.opposite {
             obstacle.check(&self.place, dimension)?;

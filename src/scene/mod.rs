@@ -17,6 +17,7 @@ mod contact;
 mod elastic_body;
 mod field;
 mod foundation;
+mod general_contact;
 mod half_space;
 mod heat;
 mod height_map;
@@ -50,6 +51,7 @@ pub use contact::{SceneContact, SceneObstacle, SceneSurface};
 pub use elastic_body::{SceneBody, SceneFormulation, SceneModel};
 pub use field::{SceneAffine, SceneAffineVector, SceneLine, SceneSpin, SceneTurn};
 pub use foundation::SceneFoundation;
+pub use general_contact::SceneGeneralContact;
 pub use half_space::{
     HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
     SceneSurfaceShape, SceneSurroundings,
@@ -90,9 +92,12 @@ pub struct Scene {
     /// The elastic bodies, all in 2D or all in 3D; names differ.
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub bodies: Vec<SceneBody>,
-    /// Where the bodies may touch obstacles or each other; at least one.
-    #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
+    /// Where the bodies may touch obstacles or each other; at least one, unless there is `general_contact`.
+    #[serde(default)]
     pub contacts: Vec<SceneContact>,
+    /// Contact between all bodies whose skins face each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub general_contact: Option<SceneGeneralContact>,
     /// A load history; left out, there is one state under the loads as they stand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<SceneSteps>,
@@ -283,7 +288,7 @@ impl Scene {
 
     fn build(&self) -> Result<Mechanics, Error> {
         let settings = self.settings.resolve()?;
-        if self.contacts.is_empty() {
+        if self.contacts.is_empty() && self.general_contact.is_none() {
             return Err(Error::Empty {
                 place: "contacts".to_owned(),
             });
@@ -298,9 +303,13 @@ impl Scene {
         }
         check_together(&bodies)?;
         let contacts = self.contacts.iter().enumerate();
-        let contacts = contacts
+        let mut contacts = contacts
             .map(|(at, contact)| contact.resolve(&format!("contacts[{at}]"), &bodies))
             .collect::<Result<Vec<_>, _>>()?;
+        if let Some(general) = &self.general_contact {
+            let more = general.pairs(&mut bodies, &contacts)?;
+            contacts.extend(more);
+        }
         let history = match &self.steps {
             Some(steps) => steps.resolve(&bodies, &contacts)?,
             None => LoadHistory::default(),

@@ -51,6 +51,70 @@ fn the_shipped_bridge_carries_its_load_in_one_piece_and_as_an_assembly() {
 }
 
 #[test]
+fn general_contact_finds_the_pairs_that_a_scene_would_name() {
+    let mut scene = shipped("assembly");
+    let (_, named) = certified(&read(&scene).unwrap());
+    scene.as_object_mut().unwrap().remove("contacts");
+    scene["general_contact"] = json!({"distance": 0.01, "friction": 0.5});
+    let (_, found) = certified(&read(&scene).unwrap());
+    assert_eq!(found.totals.pairs[0].place, "general_contact: deck, feet");
+    assert!((found.totals.normal / named.totals.normal - 1.0).abs() < 1e-10);
+    assert!((found.totals.peak_pressure / named.totals.peak_pressure - 1.0).abs() < 1e-9);
+    let say = |change: &dyn Fn(&mut Value)| {
+        let mut scene = scene.clone();
+        change(&mut scene);
+        read(&scene)
+            .and_then(|scene| scene.mechanics().map(|_| ()))
+            .unwrap_err()
+            .to_string()
+    };
+    let found = say(&|scene| scene["general_contact"]["distance"] = json!(0));
+    assert!(found.contains("general_contact.distance: 0"), "{found}");
+    let found = say(&|scene| scene["bodies"].as_array_mut().unwrap().truncate(1));
+    assert!(found.contains("general_contact.distance: 0.01"), "{found}");
+    let found = say(&|scene| scene["general_contact"]["friction"] = json!(-1));
+    assert!(
+        found.contains("general_contact: deck, feet.friction: -1"),
+        "{found}"
+    );
+}
+
+/// A tower of three blocks and a wall beside the second one.
+#[test]
+fn every_two_skins_that_face_each_other_make_a_pair_and_no_others() {
+    let block = |name: &str, x: [f64; 2], y: [f64; 2], cells: [usize; 2]| {
+        json!({"name": name, "model": "plane_strain", "materials": [{"young": 1000, "poisson": 0}],
+            "mesh": {"rectangle": {"x": x, "y": y, "cells": cells}}})
+    };
+    let mut bodies = vec![
+        block("low", [0.0, 1.0], [0.0, 1.0], [4, 4]),
+        block("middle", [0.0, 1.0], [1.0, 2.0], [5, 5]),
+        block("high", [0.0, 1.0], [2.0, 3.0], [4, 4]),
+        block("wall", [1.0, 2.0], [1.0, 2.0], [3, 3]),
+    ];
+    bodies[0]["supports"] = json!([{"group": "bottom", "displacement": [0, 0]}]);
+    bodies[2]["loads"] = json!([{"group": "top", "pressure": 1}]);
+    bodies[3]["supports"] = json!([{"group": "right", "displacement": [0, 0]}]);
+    let scene = json!({"bodies": bodies, "general_contact": {"distance": 0.01, "friction": 0.3}});
+    let (_, report) = certified(&read(&scene).unwrap());
+    let places: Vec<_> = report
+        .totals
+        .pairs
+        .iter()
+        .map(|pair| pair.place.as_str())
+        .collect();
+    let expected = ["low, middle", "middle, high", "middle, wall"]
+        .map(|pair| format!("general_contact: {pair}"));
+    assert_eq!(places, expected);
+    // ν = 0: nothing pushes on the wall.
+    let normal = [0, 1, 2].map(|at| report.totals.pairs[at].totals.normal.abs());
+    assert!(
+        (normal[0] - 1.0).abs() < 1e-9 && (normal[1] - 1.0).abs() < 1e-9 && normal[2] < 1e-9,
+        "{normal:?}"
+    );
+}
+
+#[test]
 fn parts_and_joined_groups_that_are_none_are_refused() {
     let say = |change: &dyn Fn(&mut Value)| {
         let mut scene = shipped("assembly");
