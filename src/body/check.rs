@@ -291,6 +291,7 @@ mod tests {
             nodes: vec![0],
             displacement: [None, Some(f64::INFINITY), None],
             offsets: Vec::new(),
+            axes: Vec::new(),
         };
         assert_says(
             kind,

@@ -42,6 +42,7 @@ pub(crate) fn nodal_forces(body: &Body, loads: &[Load]) -> Vec<f64> {
                 forces.add_varying_traction(facets, traction);
             }
             Load::Spread { facets, wrench } => forces.add_spread(facets, wrench),
+            Load::AtReference { nodes, wrench, .. } => forces.add_at_reference(nodes, wrench),
             Load::Gravity {
                 cells,
                 acceleration,
@@ -76,7 +77,9 @@ impl Load {
             Self::VaryingTraction { traction, .. } => {
                 *traction = traction.map(|component| component.scaled(factor));
             }
-            Self::Spread { wrench, .. } => *wrench = wrench.scaled(factor),
+            Self::Spread { wrench, .. } | Self::AtReference { wrench, .. } => {
+                *wrench = wrench.scaled(factor);
+            }
             Self::Centrifugal { speed_squared, .. } => *speed_squared *= factor,
             Self::Temperature { rise, .. } => rise.iter_mut().for_each(|t| *t *= factor),
             Self::InitialStress { stress, .. } => stress.iter_mut().for_each(|s| *s *= factor),

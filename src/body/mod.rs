@@ -13,6 +13,8 @@
 //! (B11) K_ab of a ring                                                          stiffness.rs
 //! (B12) σ = λ θ I + 2 μ ε + σ₀                    heat and initial stress           prestress.rs
 //! (B13) K_ab += ∫ N_a N_b k dA                    springs to the ground            foundation.rs
+//! (B14) Σ a_k u_k = b                             what depends on what             tie.rs
+//! (B15) u = T q + E b                             what is left of the unknowns     dependence.rs
 //! ```
 //!
 //! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
@@ -31,6 +33,7 @@ mod axis;
 mod boundary;
 mod cell;
 mod check;
+mod dependence;
 mod dilatation;
 mod entries;
 mod extremes;
@@ -58,12 +61,14 @@ mod structured;
 mod support;
 #[cfg(test)]
 pub(crate) mod tests;
+mod tie;
 mod turned;
 
 pub use affine::Affine;
 pub(crate) use axis::Axis;
 pub(crate) use axis::held_by_axis;
 pub(crate) use check::check;
+pub(crate) use dependence::{Dependence, dependence};
 pub(crate) use extremes::extremes;
 pub use extremes::{Extreme, Extremes};
 pub(crate) use facet::FacetGeometry;
@@ -87,6 +92,8 @@ pub(crate) use stress::{cell_stress, nodal_stress, principal, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
 pub(crate) use support::prescribed;
 pub(crate) use support::prescribed_by;
+pub(crate) use tie::OF_TIE;
+pub use tie::{Equation, RigidGroup, Source, Tie, TiedPairs};
 
 use crate::error::Error;
 
@@ -127,10 +134,12 @@ pub struct Support {
     pub place: String,
     /// The supported nodes.
     pub nodes: Vec<usize>,
-    /// Prescribed displacement per global axis, in metre; `None` leaves the component free.
+    /// Prescribed displacement per axis, in metre; `None` leaves the component free.
     pub displacement: [Option<f64>; 3],
     /// Added to it per node, in metre, as of a rotation; none at all where all nodes move alike.
     pub offsets: Vec<[f64; 3]>,
+    /// Orthonormal directions of the components per node; none at all where they are the global axes.
+    pub axes: Vec<[[f64; 3]; 3]>,
 }
 
 /// A given force on the body.
@@ -186,6 +195,16 @@ pub enum Load {
         /// What the tractions sum up to.
         wrench: Wrench,
     },
+    /// A force and a moment at the reference point of a rigid group: any forces on its nodes with that
+    /// resultant are the same.
+    AtReference {
+        /// Where the scene states the group.
+        place: String,
+        /// Nodes of the group.
+        nodes: Vec<usize>,
+        /// What their forces sum up to.
+        wrench: Wrench,
+    },
     /// Weight: force per volume of the density times an acceleration.
     Gravity {
         /// Loaded cells.
@@ -237,6 +256,8 @@ pub struct Body {
     pub loads: Vec<Load>,
     /// Springs to the ground.
     pub foundation: Vec<Foundation>,
+    /// Displacements that depend on each other.
+    pub ties: Vec<Tie>,
 }
 
 impl Body {

@@ -10,7 +10,7 @@ use super::PartMotion;
 use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
-use super::load_case::Action;
+use super::load_case::Given;
 use super::rigid_bodies::{floating, part_motions};
 use super::room::dense_bytes;
 use super::supported::{OfInterface, SupportedBody};
@@ -80,7 +80,9 @@ impl Condensed {
         let (mut condensed, mut interfaces) = (Vec::new(), Vec::new());
         let mut of_interfaces = Vec::new();
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
-            let interface = Interface::new(&surface, index, dimension, &prescribed);
+            let dependence = body::dependence(body)?;
+            let tied = dependence.as_ref();
+            let interface = Interface::new(&surface, index, dimension, (&prescribed, tied));
             let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
             let supported = SupportedBody {
                 name: &body.name,
@@ -88,8 +90,12 @@ impl Condensed {
                 dimension,
                 stiffness: body::stiffness(body),
                 load: body::load_vector(body),
-                grounding: Grounding::new(body, &prescribed, &nodes),
-                prescribed,
+                grounding: Grounding::new(body, (&prescribed, tied), &nodes),
+                given: Given {
+                    values: tied.map_or_else(Vec::new, |tied| tied.values(|_| 1.0)),
+                    prescribed,
+                },
+                dependence,
             };
             let (body, of_interface) = supported.condense(&interface, &mut work)?;
             condensed.push(body);
@@ -182,12 +188,8 @@ fn join(
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
     let mut free_displacement = vec![0.0; unknowns];
     for (interface, body) in interfaces.iter().zip(bodies) {
-        let Action {
-            prescribed,
-            free_displacement: of_body,
-            ..
-        } = &body.action;
-        interface.add_displacement(prescribed, of_body, &mut free_displacement);
+        let action = &body.action;
+        interface.add_displacement(action, &action.free_displacement, &mut free_displacement);
     }
     let mut operators = of_interfaces.into_iter().map(OfInterface::operator);
     let operator = match (interfaces, operators.next().transpose()?) {
@@ -248,6 +250,7 @@ mod tests {
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(across), Some(0.0)],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         body.loads.push(Load::Pressure {
             facets: facets(&body.mesh, "top"),
@@ -445,6 +448,7 @@ mod tests {
                 nodes,
                 displacement,
                 offsets: Vec::new(),
+                axes: Vec::new(),
             });
         };
         hold((8..81).step_by(9).collect(), [Some(0.0), None, None]);
@@ -551,6 +555,7 @@ mod tests {
             nodes: vec![0, 3],
             displacement: [Some(0.0); 3],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),

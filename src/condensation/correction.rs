@@ -35,7 +35,7 @@ impl Condensed {
         let bodies = self.bodies.iter().zip(self.interfaces.iter());
         for ((body, interface), moved) in bodies.zip(displacements) {
             let at_contacts = body.factored.at_contacts(moved);
-            interface.add_displacement(&body.action.prescribed, &at_contacts, &mut ahead);
+            interface.add_displacement(&body.action, &at_contacts, &mut ahead);
         }
         let total = self.problem.total_displacement(displacement);
         ahead.iter_mut().zip(total).for_each(|(u, said)| *u -= said);
@@ -94,11 +94,7 @@ impl FactoredBody {
         let mut rest = self.residual(action, forces, displacement);
         self.factor.forward(&mut rest);
         self.factor.backward(&mut rest);
-        let mut change = vec![0.0; displacement.len()];
-        for (&dof, &value) in self.ordering.dof.iter().zip(&rest) {
-            change[dof] = value;
-        }
-        self.frames.turn_to_global(&mut change);
+        let change = self.in_space(&rest);
         let unknowns = displacement.iter_mut().zip(&action.prescribed).zip(change);
         for ((u, _), change) in unknowns.filter(|((_, prescribed), _)| prescribed.is_none()) {
             *u += change;
@@ -108,14 +104,13 @@ impl FactoredBody {
     /// r of (C24), in newton, in the factor's order.
     fn residual(&self, action: &Action, forces: &[f64], displacement: &[f64]) -> Vec<f64> {
         let rows = self.stiffness.outer_iterator().zip(&action.load);
-        let mut rest: Vec<f64> = rows
+        let rest: Vec<f64> = rows
             .map(|(row, &load)| {
                 let terms = row.iter().map(|(k, entry)| (-*entry, displacement[k]));
                 deep_sum(load, terms)
             })
             .collect();
-        self.frames.turn_to_local(&mut rest);
-        let mut rest: Vec<f64> = self.ordering.dof.iter().map(|&dof| rest[dof]).collect();
+        let mut rest = self.in_order(rest);
         let at_contacts = rest[self.ordering.ordinary()..].iter_mut();
         at_contacts
             .zip(forces)
@@ -155,6 +150,7 @@ mod tests {
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(0.01), Some(-0.02)],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),

@@ -37,9 +37,13 @@ impl Condensed {
         }
         let actions = under.at(factors)?;
         check_length("bodies", self.bodies.len(), actions.len())?;
+        for (body, action) in self.bodies.iter().zip(&actions) {
+            body.dependence()
+                .map_or(Ok(()), |tied| tied.check(&action.values))?;
+        }
         let mut free = vec![0.0; self.problem.unknowns()];
         for (action, interface) in actions.iter().zip(self.interfaces.iter()) {
-            interface.add_displacement(&action.prescribed, &action.free_displacement, &mut free);
+            interface.add_displacement(action, &action.free_displacement, &mut free);
         }
         let mut problem = self.problem.step(free, self.reference(obstacles, slip))?;
         if let Some(floating) = problem.floating() {
@@ -135,6 +139,7 @@ mod tests {
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(moved), Some(0.0)],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         let facets_of = |side| facets(&body.mesh, side);
         let (top, bottom) = (facets_of("top"), facets_of("bottom"));

@@ -57,8 +57,14 @@ impl RigidBodies {
         Ok(Self {
             surface,
             groundings: held
-                .map(|(body, held)| Grounding::new(body, held, &[]))
-                .collect(),
+                .map(|(body, held)| {
+                    Ok(Grounding::new(
+                        body,
+                        (held, body::dependence(body)?.as_ref()),
+                        &[],
+                    ))
+                })
+                .collect::<Result<_, Error>>()?,
             dimension: bodies.first().map_or(3, |body| body.mesh.dimension),
         })
     }

@@ -6,9 +6,9 @@
 //! ```
 
 use super::Condensed;
-use super::load_case::Action;
+use super::load_case::{Action, Given};
 use crate::body;
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, Source, Support};
 use crate::error::{Error, check_finite, check_length};
 
 /// A load or a support, by the number of its body and its own there.
@@ -26,6 +26,13 @@ pub enum Driven {
         /// Its body.
         body: usize,
         /// Its number among the body's supports.
+        index: usize,
+    },
+    /// The given motion of a rigid group.
+    Motion {
+        /// Its body.
+        body: usize,
+        /// Its number among the body's ties.
         index: usize,
     },
 }
@@ -75,7 +82,7 @@ impl Condensed {
             driven: driven.to_vec(),
             rest,
             parts,
-            supports: bodies.iter().map(|body| body.supports.clone()).collect(),
+            supports: bodies.iter().map(stated).collect(),
             dimension: bodies.first().map_or(3, |body| body.mesh.dimension),
         })
     }
@@ -87,10 +94,18 @@ impl Condensed {
         let loads: Vec<Load> = loads.map(|(_, load)| load.clone()).collect();
         let moves = |index| acts(Driven::Support { body: at, index });
         self.work.substitutions += 1;
-        self.bodies[at].answer(
-            body::nodal_forces(body, &loads),
-            displacements_of(body, moves),
-        )
+        let given = match self.bodies[at].dependence() {
+            Some(tied) => Given::of(tied, |by| match by {
+                Source::Axis => false,
+                Source::Support(index) => moves(index),
+                Source::Tie(index) => acts(Driven::Motion { body: at, index }),
+            }),
+            None => Given {
+                prescribed: displacements_of(body, moves),
+                ..Given::default()
+            },
+        };
+        self.bodies[at].answer(body::nodal_forces(body, &loads), given)
     }
 }
 
@@ -108,8 +123,10 @@ impl Superposition {
         let mut actions = self.rest.clone();
         for ((driven, part), &factor) in self.driven.iter().zip(&self.parts).zip(factors) {
             actions[driven.body()].add(factor, part);
-            if let Driven::Support { body, index } = *driven {
-                supports[body][index] = supports[body][index].scaled(factor);
+            if let Driven::Support { body, index } = *driven
+                && let Some(support) = supports[body].get_mut(index)
+            {
+                *support = support.scaled(factor);
             }
         }
         for (action, supports) in actions.iter().zip(&supports) {
@@ -121,6 +138,14 @@ impl Superposition {
     }
 }
 
+/// The supports that can contradict each other unknown by unknown.
+fn stated(body: &Body) -> Vec<Support> {
+    match body.is_tied() {
+        true => Vec::new(),
+        false => body.supports.clone(),
+    }
+}
+
 impl Driven {
     fn check(self, bodies: &[Body]) -> Result<(), Error> {
         let body = bodies.get(self.body());
@@ -128,6 +153,7 @@ impl Driven {
             (_, None) => ("body", self.body(), bodies.len()),
             (Self::Load { index, .. }, Some(body)) => ("load", index, body.loads.len()),
             (Self::Support { index, .. }, Some(body)) => ("support", index, body.supports.len()),
+            (Self::Motion { index, .. }, Some(body)) => ("tie", index, body.ties.len()),
         };
         match index < count {
             true => Ok(()),
@@ -142,7 +168,9 @@ impl Driven {
 
     fn body(self) -> usize {
         match self {
-            Self::Load { body, .. } | Self::Support { body, .. } => body,
+            Self::Load { body, .. } | Self::Support { body, .. } | Self::Motion { body, .. } => {
+                body
+            }
         }
     }
 }

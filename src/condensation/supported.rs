@@ -10,8 +10,10 @@ use super::condensed_body::{CondensedBody, FactoredBody};
 use super::factor::{Breakdown, Factor};
 use super::grounding::Grounding;
 use super::interface::Interface;
+use super::load_case::Given;
 use super::local_axes::{Frames, InterfaceNode};
 use super::ordering::{Ordering, Role};
+use crate::body::Dependence;
 use crate::error::Error;
 use crate::problem::Operator;
 
@@ -22,7 +24,8 @@ pub(super) struct SupportedBody<'a> {
     pub(super) dimension: usize,
     pub(super) stiffness: CsMat<f64>,
     pub(super) load: Vec<f64>,
-    pub(super) prescribed: Vec<Option<f64>>,
+    pub(super) given: Given,
+    pub(super) dependence: Option<Dependence>,
     pub(super) grounding: Grounding,
 }
 
@@ -55,12 +58,15 @@ impl SupportedBody<'_> {
         let nodes = interface.condensed_nodes();
         let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
         let (roles, contact) = self.roles(nodes);
-        let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
+        let tied = self.dependence.as_ref();
+        let reduced = tied.map(|tied| tied.reduce(&self.stiffness));
+        let stiffness = reduced.as_ref().unwrap_or(&self.stiffness);
+        let ordering = Ordering::new(stiffness, self.dimension, &roles, &contact)
             .ok_or_else(|| self.too_large("ordering"))?;
         work.ordering_seconds += start.elapsed().as_secs_f64();
 
         let start = Instant::now();
-        let grounded = self.grounding.ground(&self.stiffness);
+        let grounded = self.grounding.ground(stiffness);
         let factor = Factor::new(&grounded, &frames, &ordering, &interface.border)
             .map_err(|breakdown| self.explain(breakdown))?;
         work.factorisation_seconds += start.elapsed().as_secs_f64();
@@ -77,12 +83,13 @@ impl SupportedBody<'_> {
         };
         let factored = FactoredBody {
             stiffness: self.stiffness,
+            dependence: self.dependence,
             frames,
             ordering,
             factor,
             grounding: self.grounding,
         };
-        let body = CondensedBody::new(factored, self.load, self.prescribed);
+        let body = CondensedBody::new(factored, self.load, self.given);
         work.substitutions += 1;
         work.condensation_seconds += start.elapsed().as_secs_f64();
         Ok((body, of_interface))
@@ -91,15 +98,19 @@ impl SupportedBody<'_> {
     /// The role of each degree of freedom in the frames, and the interface unknowns in order.
     fn roles(&self, interface: &[InterfaceNode]) -> (Vec<Role>, Vec<usize>) {
         let role = |held: bool| if held { Role::Held } else { Role::Ordinary };
-        let mut roles: Vec<Role> = self
-            .prescribed
-            .iter()
-            .map(|value| role(value.is_some()))
+        let prescribed = &self.given.prescribed;
+        let depends = |dof| {
+            self.dependence
+                .as_ref()
+                .is_some_and(|tied| tied.of(dof).is_some())
+        };
+        let mut roles: Vec<Role> = (0..prescribed.len())
+            .map(|dof| role(prescribed[dof].is_some() || depends(dof)))
             .collect();
         let mut contact = Vec::new();
         for node in interface {
             let first = node.node * self.dimension;
-            let supported = &self.prescribed[first..first + self.dimension];
+            let supported = &prescribed[first..first + self.dimension];
             for (row, direction) in node.frame[..self.dimension].iter().enumerate() {
                 let mut along = direction.iter().zip(supported);
                 roles[first + row] = if row < node.kept {

@@ -13,9 +13,10 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
+use super::held::Directions;
 use super::rounding::{Bulges, Turns};
 use super::{ContactNode, ContactPair, Obstacle};
-use crate::body::{Body, Facet, FacetGeometry, Mesh};
+use crate::body::{Body, Dependence, Facet, FacetGeometry, Mesh};
 use crate::error::Error;
 
 /// Cosine between a facet's normal and the direction to the obstacle, above which it faces it.
@@ -41,6 +42,17 @@ pub(super) struct Bodies<'a> {
     pub(super) boundaries: &'a [Boundary<'a>],
     /// Prescribed displacement per body and degree of freedom.
     pub(super) prescribed: &'a [Vec<Option<f64>>],
+    /// What depends on what, per body.
+    pub(super) tied: &'a [Option<Dependence>],
+}
+
+impl Bodies<'_> {
+    /// Directions along which a node is held.
+    pub(super) fn held(&self, body: usize, node: usize) -> Directions {
+        let (prescribed, tied) = (&self.prescribed[body], self.tied[body].as_ref());
+        let dimension = self.bodies[body].mesh.dimension;
+        Directions::of(prescribed, tied, dimension, node)
+    }
 }
 
 impl<'a> Boundary<'a> {

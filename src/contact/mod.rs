@@ -20,6 +20,7 @@ mod carrying_side;
 mod corner_weights;
 mod facing;
 pub(crate) mod frame;
+mod held;
 mod lift;
 pub(crate) mod mortar;
 mod node;

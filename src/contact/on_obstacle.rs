@@ -3,9 +3,12 @@
 //! Beside an axisymmetric body an obstacle goes around the axis: a plane is a cone, or a disc, and a
 //! circle a ball. What stands on the axis sees only along it, to the apex of a cone.
 
-use super::corner_weights::{Footing, footings, held_axes};
+use nalgebra::Vector3;
+
+use super::corner_weights::{Footing, footings, held_directions};
 use super::facing::Bodies;
 use super::frame::Stance;
+use super::held::Directions;
 use super::pair::{Coupling, PairSurface};
 use super::{Closest, ContactNode, ContactPair, Obstacle};
 use crate::body::{Axis, Body, Facet};
@@ -36,7 +39,7 @@ pub(super) fn on_obstacle(
     let (rounded, largest_bulge) = bulges.rounded(&every);
     for footing in footings(body, &facing, &bulges, gap)? {
         let node = footing.node;
-        match view.contact(footing, &scene.prescribed[pair.body])? {
+        match view.contact(footing, scene)? {
             Some(contact) => contacts.push(contact),
             None => left_out.push(node),
         }
@@ -93,22 +96,18 @@ impl View<'_> {
     }
 
     /// The contact of a footing; none if a support holds its normal.
-    fn contact(
-        &self,
-        footing: Footing,
-        prescribed: &[Option<f64>],
-    ) -> Result<Option<ContactNode>, Error> {
+    fn contact(&self, footing: Footing, scene: &Bodies<'_>) -> Result<Option<ContactNode>, Error> {
         let (pair, node) = (self.pair, footing.node);
         let dimension = self.body.mesh.dimension;
         let position = self.body.mesh.nodes[node];
         let closest = self.closest(node, position)?;
         let given = |node: usize, axis: usize| match axis < dimension {
-            true => prescribed[node * dimension + axis],
+            true => scene.prescribed[pair.body][node * dimension + axis],
             false => None,
         };
-        let held = |node, axis| given(node, axis).is_some();
-        let supported = held_axes(node, &footing.own, closest.direction, held);
-        let stance = Stance::new(dimension, closest.direction, supported);
+        let held = |node| scene.held(pair.body, node);
+        let supported = held_directions(node, &footing.own, closest.direction.into(), held);
+        let stance = Stance::new(dimension, closest.direction, &supported);
         let (frame, kept) = match stance {
             Stance::Held => return Ok(None),
             Stance::Free { frame, kept } => (frame, kept),
@@ -118,7 +117,7 @@ impl View<'_> {
                     node,
                     position,
                     normal: closest.direction,
-                    axes: axes(supported),
+                    axes: axes(&supported),
                 });
             }
         };
@@ -160,10 +159,13 @@ impl View<'_> {
 
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
-/// The supported axes in words.
-fn axes(held: [bool; 3]) -> String {
-    let named = AXES.iter().zip(held).filter(|(_, held)| *held);
-    let named: Vec<String> = named.map(|(axis, _)| axis.to_string()).collect();
+/// The supported directions in words.
+fn axes(held: &Directions) -> String {
+    let name = |direction: &Vector3<f64>| match direction.iter().position(|d| *d == 1.0) {
+        Some(axis) => AXES[axis].to_string(),
+        None => format!("{:?}", <[f64; 3]>::from(*direction)),
+    };
+    let named: Vec<String> = held.0.iter().map(name).collect();
     named.join(" and ")
 }
 
@@ -204,6 +206,7 @@ mod tests {
             nodes: nodes.to_vec(),
             displacement,
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
     }
 

@@ -13,7 +13,7 @@ use super::facing::{Bodies, Boundary};
 use super::node::ContactNode;
 use super::on_obstacle::on_obstacle;
 use super::pair::{ContactPair, Coupling, Opposite, check_pair_body};
-use crate::body::{Body, Facet};
+use crate::body::{Body, Dependence, Facet, dependence};
 use crate::error::{Error, check_length};
 
 /// The contact nodes in the order of the contact problem, and what was left out.
@@ -62,7 +62,10 @@ impl ContactSurface {
         let mut surface = Self::default();
         let boundaries = bodies.iter().map(Boundary::new);
         let boundaries: Vec<Boundary> = boundaries.collect();
+        let tied = bodies.iter().map(dependence);
+        let tied: Vec<Option<Dependence>> = tied.collect::<Result<_, _>>()?;
         let scene = Bodies {
+            tied: &tied,
             bodies,
             boundaries: &boundaries,
             prescribed,

@@ -86,13 +86,8 @@ impl Stock<'_, '_> {
             mesh.push_cell(element.kind.cell, &local);
         }
         let mut body = SceneBody {
-            name: of_part.name.clone(),
-            mesh: MeshSource::Given(Mesh::default()),
             model: Some(model(of_part)),
-            materials: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            foundation: Vec::new(),
+            ..SceneBody::new(&of_part.name, Mesh::default())
         };
         let mut of_material: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for at in &cells {

@@ -14,6 +14,7 @@
 //! (K6)  Σ_own f + Σ_opposite f = 0                              what the sides exchange
 //! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
 //! (K8)  Rᵀ t + e = 0                                            equilibrium of floating bodies
+//! (K15) s = Cᵀ λ                                            forces where displacements depend on each other
 //! (K9)  external work = elastic + dissipation + closure          where the work of a load step went
 //! ```
 //!
@@ -46,6 +47,7 @@ mod support_forces;
 mod surface_departure;
 #[cfg(test)]
 pub(crate) mod tests;
+mod tied;
 
 pub use balance::{Balance, WorstNode, balance};
 pub use body_state::BodyState;
@@ -63,3 +65,5 @@ pub use scene::{Measure, PairFit, SceneGeometry, Surroundings};
 pub(crate) use sides::{global_force, relative_displacement};
 pub(crate) use support_forces::support_forces;
 pub use surface_departure::surface_departure;
+pub use tied::GroupState;
+pub(crate) use tied::group_states;

@@ -1,6 +1,8 @@
 //! What every support carries.
 
 use super::body_state::BodyState;
+use super::tied::TieForces;
+use crate::body::Source;
 use crate::error::Error;
 
 /// Sum of the support reactions s (K4) of every support of a body on it, in newton, in global axes.
@@ -16,6 +18,18 @@ pub(crate) fn support_forces(state: &BodyState<'_>) -> Result<Vec<[f64; 3]>, Err
         return Ok(Vec::new());
     }
     let axes = state.dimension();
+    if !state.equations.is_empty() {
+        let reactions = state.support_reactions(&state.contact_forces());
+        let forces = TieForces::new(state, &reactions);
+        let sums = (0..supports.len()).map(|index| {
+            let mut sum = [0.0; 3];
+            forces.visit(state, Source::Support(index), |unknown, force| {
+                sum[unknown % axes] += force;
+            });
+            sum
+        });
+        return Ok(sums.collect());
+    }
     let mut reactions = state.held_reactions(&state.contact_forces());
     let sums = supports.iter().map(|support| {
         let mut sum = [0.0; 3];

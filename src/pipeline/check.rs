@@ -53,10 +53,16 @@ fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
 fn check_supports(mechanics: &Mechanics) -> Result<(), Error> {
     let history = &mechanics.history;
     for (index, body) in mechanics.bodies.iter().enumerate() {
-        if body.supports.len() < 2 || !moves(history, index) {
+        let stated = body.supports.len() + body.ties.len();
+        if stated < 2 || !moves(history, index) {
             continue;
         }
+        let tied = body::dependence(body)?;
         for &at in history.instants() {
+            if let Some(tied) = &tied {
+                tied.check(&tied.values(|by| history.factor(index, by, at)))?;
+                continue;
+            }
             let supports = supports_at(history, at, index, &body.supports);
             let (axes, nodes) = (body.mesh.dimension, body.mesh.nodes.len());
             body::prescribed_by(&supports, axes, nodes)?;
@@ -69,7 +75,10 @@ fn check_supports(mechanics: &Mechanics) -> Result<(), Error> {
 fn moves(history: &LoadHistory, of: usize) -> bool {
     let driven = history.driven();
     let mut supports = driven.iter();
-    supports.any(|driven| matches!(driven, Driven::Support { body, .. } if *body == of))
+    supports.any(|driven| match driven {
+        Driven::Support { body, .. } | Driven::Motion { body, .. } => *body == of,
+        Driven::Load { .. } => false,
+    })
 }
 
 fn supports_at(history: &LoadHistory, at: f64, of: usize, stated: &[Support]) -> Vec<Support> {

@@ -119,7 +119,7 @@ fn kind(load: &Load) -> &'static str {
         Load::PointForce { .. } => "point_force",
         Load::VaryingPressure { .. } => "pressure",
         Load::VaryingTraction { .. } => "traction",
-        Load::Spread { .. } => "force",
+        Load::Spread { .. } | Load::AtReference { .. } => "force",
         Load::Gravity { .. } => "gravity",
         Load::Centrifugal { .. } => "centrifugal",
         Load::Temperature { .. } => "temperature",

@@ -271,6 +271,7 @@ impl Solution {
             .body_states(&self.outcome.reaction, &self.displacements);
         let support_forces = states.iter().map(kkt::support_forces);
         let support_forces: Vec<_> = support_forces.collect::<Result<_, _>>()?;
+        let group_states: Vec<_> = states.iter().map(kkt::group_states).collect();
         let parts = ReportParts {
             title: &self.setup.title,
             units: &self.setup.units,
@@ -284,6 +285,7 @@ impl Solution {
             balances: &self.measured.balances,
             extremes: self.extremes(),
             support_forces: &support_forces,
+            group_states: &group_states,
             departure: self.measured.departure,
             fits: &self.measured.fits,
             stages: &StageWork {

@@ -42,6 +42,7 @@ mod notes;
 mod page;
 mod picture;
 mod quality;
+mod rigid_groups;
 mod shortfall;
 mod step;
 #[cfg(feature = "cli")]
@@ -83,6 +84,7 @@ pub use page::Page;
 pub(crate) use page::PageState;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
+pub use rigid_groups::ReportedRigidGroup;
 pub use shortfall::ReportedShortfall;
 pub(crate) use step::ReportedHalving;
 pub use step::{ReportedLedger, ReportedStep};
@@ -137,6 +139,9 @@ pub struct Report {
     pub extremes: ReportedExtremes,
     /// What every support carries.
     pub supports: Vec<SupportForce>,
+    /// How every rigid group has moved, and what holds it; absent where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rigid_groups: Vec<ReportedRigidGroup>,
     /// How far pressure and stress can be trusted by eye.
     pub quality: Quality,
     /// What it took.
@@ -232,6 +237,8 @@ pub struct ReportParts<'a> {
     pub extremes: &'a [body::Extremes],
     /// Force of every support on its body in global axes, body by body, in newton.
     pub support_forces: &'a [Vec<[f64; 3]>],
+    /// Motion of every rigid group and what holds it, body by body.
+    pub group_states: &'a [Vec<kkt::GroupState>],
     /// How far that displacement is from the condensed problem's at the contacts.
     pub departure: kkt::Worst,
     /// Whether the sides of each pair are in that state; empty where nobody looked.
@@ -278,6 +285,7 @@ impl Report {
             totals: Totals::new(parts, &exchanges, &forces),
             extremes: ReportedExtremes::new(parts),
             supports: extremes::support_forces(parts),
+            rigid_groups: rigid_groups::rigid_groups(parts),
             quality: Quality::new(parts, &contacts),
             work: ReportedWork::new(parts),
             history: parts

@@ -134,6 +134,17 @@ fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
         let (place, force) = (&support.place, vector(&support.force));
         writeln!(text, "support         {force} by {place}")?;
     }
+    for group in report.rigid_groups.iter().take(LISTED) {
+        writeln!(
+            text,
+            "rigid group     {}: moved {}, turned {}, held by {} and moment {}",
+            group.place,
+            vector(&group.displacement),
+            vector(&group.rotation),
+            vector(&group.force),
+            vector(&group.moment)
+        )?;
+    }
     match report.supports.len().saturating_sub(LISTED) {
         0 => Ok(()),
         rest => writeln!(text, "  ... and {rest} more"),

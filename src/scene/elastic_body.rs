@@ -5,7 +5,9 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::field::is_zero;
-use super::{MeshSource, SceneFoundation, SceneLoad, SceneSupport, selection};
+use super::{
+    MeshSource, SceneFoundation, SceneLoad, ScenePeriodic, SceneRigidGroup, SceneSupport, selection,
+};
 use crate::body;
 use crate::body::{Body, Material, Mesh, Model};
 use crate::error::Error;
@@ -35,6 +37,12 @@ pub struct SceneBody {
     /// Springs that hold it to the ground.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub foundation: Vec<SceneFoundation>,
+    /// Groups that move as rigid bodies, coupled to reference points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rigid_groups: Vec<SceneRigidGroup>,
+    /// Pairs of faces, where the body repeats.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub periodic: Vec<ScenePeriodic>,
 }
 
 fn unnamed() -> String {
@@ -136,6 +144,8 @@ impl SceneBody {
             supports: Vec::new(),
             loads: Vec::new(),
             foundation: Vec::new(),
+            rigid_groups: Vec::new(),
+            periodic: Vec::new(),
         }
     }
 
@@ -174,6 +184,20 @@ impl SceneBody {
         self
     }
 
+    /// The body with a group that moves as a rigid body.
+    #[must_use]
+    pub fn with_rigid_group(mut self, group: SceneRigidGroup) -> Self {
+        self.rigid_groups.push(group);
+        self
+    }
+
+    /// The body with a pair of faces where it repeats.
+    #[must_use]
+    pub fn with_periodic(mut self, periodic: ScenePeriodic) -> Self {
+        self.periodic.push(periodic);
+        self
+    }
+
     /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
     /// `folder`. What was changed is added to `notes`.
     pub(super) fn resolve(
@@ -198,12 +222,22 @@ impl SceneBody {
         let supports = (self.supports.iter().enumerate())
             .map(|(at, support)| support.resolve(format!("{place}.supports[{at}]"), &mesh, model))
             .collect::<Result<_, _>>()?;
-        let loads = (self.loads.iter().enumerate())
+        let mut loads = (self.loads.iter().enumerate())
             .map(|(at, load)| load.resolve(&format!("{place}.loads[{at}]"), folder, &mesh, model))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
         let foundation = (self.foundation.iter().enumerate())
             .map(|(at, springs)| springs.resolve(format!("{place}.foundation[{at}]"), &mesh))
             .collect::<Result<_, _>>()?;
+        let mut ties = Vec::new();
+        for (at, group) in self.rigid_groups.iter().enumerate() {
+            let (tie, load) =
+                group.resolve(&format!("{place}.rigid_groups[{at}]"), &mesh, model)?;
+            ties.push(tie);
+            loads.extend(load);
+        }
+        for (at, faces) in self.periodic.iter().enumerate() {
+            ties.push(faces.resolve(&format!("{place}.periodic[{at}]"), &mesh, model)?);
+        }
         let body = Body {
             name: self.name.clone(),
             mesh,
@@ -213,6 +247,7 @@ impl SceneBody {
             supports,
             loads,
             foundation,
+            ties,
         };
         body::check(&body)?;
         body::prescribed(&body)?;

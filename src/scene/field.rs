@@ -186,7 +186,7 @@ impl SceneTurn {
 }
 
 /// A line through a point; out of the plane in 2D.
-fn line(
+pub(super) fn line(
     place: &str,
     point: &[f64],
     direction: Option<&[f64]>,

@@ -23,6 +23,7 @@ mod height_map;
 mod json;
 mod load;
 mod load_keys;
+mod local_axes;
 mod mesh_source;
 mod nodal_table;
 mod remeshed;
@@ -32,6 +33,7 @@ mod spelling;
 mod steps;
 mod support;
 mod table;
+mod ties;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -54,12 +56,14 @@ pub use half_space::{
 };
 pub use heat::{NodalFile, SceneTemperature};
 pub use load::SceneLoad;
+pub use local_axes::SceneAxis;
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
 pub use saved_state::SavedState;
 pub(crate) use saved_state::{Exact, Fingerprint, exact, plain};
 pub use steps::SceneSteps;
 pub(crate) use steps::{LoadHistory, driven};
 pub use support::SceneSupport;
+pub use ties::{ScenePeriodic, SceneRigidGroup};
 
 pub(crate) use spelling::nearest;
 
@@ -483,13 +487,9 @@ mod tests {
         let material = |group: &str, young| SceneMaterial::new(young, 0.0).of(group);
         let scene = Scene {
             bodies: vec![SceneBody {
-                name: "bar".into(),
-                mesh: MeshSource::Given(mesh),
                 model: Some(SceneModel::PlaneStress { thickness: 0.1 }),
                 materials: vec![material("soft", 1.0), material("stiff", 2.0)],
-                supports: vec![],
-                loads: vec![],
-                foundation: vec![],
+                ..SceneBody::new("bar", mesh)
             }],
             contacts: vec![SceneContact {
                 group: "bottom".into(),

@@ -30,7 +30,7 @@ use serde::{Deserialize, Serialize};
 
 use super::spelling;
 use super::table::Table;
-use crate::body::Body;
+use crate::body::{Body, Load, Source, Tie};
 use crate::condensation::Driven;
 use crate::contact::{ContactPair, Opposite};
 use crate::error::{Error, check_finite};
@@ -79,7 +79,7 @@ pub struct SceneSteps {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadHistory {
     instants: Vec<f64>,
-    factors: Vec<(Driven, Table)>,
+    factors: Vec<(String, Driven, Table)>,
     obstacles: Vec<(usize, Table)>,
     gaps: Vec<(usize, Table)>,
     /// Stated gap per contact, in metre.
@@ -130,7 +130,7 @@ impl SceneSteps {
                 .find(|(known, _)| known == name)
                 .ok_or_else(|| unknown(&place, "load or support", name, known_names))?;
             let factor = Table::new(&place, rows, 1)?;
-            history.factors.push((*driven, factor));
+            history.factors.push((name.clone(), *driven, factor));
         }
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let obstacles = contacts.iter().enumerate();
@@ -180,19 +180,32 @@ fn gap_table(
 pub(crate) fn driven(bodies: &[Body]) -> Vec<(String, Driven)> {
     let mut places = Vec::new();
     for (body, of) in bodies.iter().enumerate() {
-        let loads = (0..of.loads.len()).map(|index| Driven::Load { body, index });
-        let supports = (0..of.supports.len()).map(|index| Driven::Support { body, index });
-        places.extend(loads.chain(supports).map(|driven| (place(driven), driven)));
+        places.extend(of.loads.iter().enumerate().map(|(index, load)| {
+            let place = match load {
+                Load::AtReference { place, .. } => format!("{place}.load"),
+                _ => format!("bodies[{body}].loads[{index}]"),
+            };
+            (place, Driven::Load { body, index })
+        }));
+        let supports = 0..of.supports.len();
+        places.extend(supports.map(|index| {
+            let place = format!("bodies[{body}].supports[{index}]");
+            (place, Driven::Support { body, index })
+        }));
+        places.extend(
+            of.ties
+                .iter()
+                .enumerate()
+                .filter_map(|(index, tie)| match tie {
+                    Tie::Rigid(group) => {
+                        let place = format!("{}.motion", group.place);
+                        Some((place, Driven::Motion { body, index }))
+                    }
+                    Tie::Pairs(_) => None,
+                }),
+        );
     }
     places
-}
-
-/// Where a scene states it.
-fn place(driven: Driven) -> String {
-    match driven {
-        Driven::Load { body, index } => format!("bodies[{body}].loads[{index}]"),
-        Driven::Support { body, index } => format!("bodies[{body}].supports[{index}]"),
-    }
 }
 
 fn unknown<'a>(
@@ -220,14 +233,25 @@ impl LoadHistory {
     /// The loads and supports that have a table.
     #[must_use]
     pub fn driven(&self) -> Vec<Driven> {
-        self.factors.iter().map(|(driven, _)| *driven).collect()
+        self.factors.iter().map(|(_, driven, _)| *driven).collect()
     }
 
     /// Their factors at an instant.
     #[must_use]
     pub fn factors(&self, instant: f64) -> Vec<f64> {
         let tables = self.factors.iter();
-        tables.map(|(_, table)| table.at(instant)[0]).collect()
+        tables.map(|(.., table)| table.at(instant)[0]).collect()
+    }
+
+    /// The factor of what a body's equation comes from, at an instant.
+    pub(crate) fn factor(&self, body: usize, by: Source, instant: f64) -> f64 {
+        let driven = match by {
+            Source::Axis => return 1.0,
+            Source::Support(index) => Driven::Support { body, index },
+            Source::Tie(index) => Driven::Motion { body, index },
+        };
+        let found = self.factors.iter().find(|(_, other, _)| *other == driven);
+        found.map_or(1.0, |(.., table)| table.at(instant)[0])
     }
 
     /// By how much halving a step may change it; none where steps are not halved.
@@ -265,7 +289,7 @@ impl LoadHistory {
     #[must_use]
     pub fn values(&self, instant: f64) -> Vec<(String, f64)> {
         let factors = self.factors.iter();
-        let factors = factors.map(|(driven, table)| (place(*driven), table.at(instant)[0]));
+        let factors = factors.map(|(name, _, table)| (name.clone(), table.at(instant)[0]));
         let obstacles = self.obstacles.iter().flat_map(|(contact, table)| {
             let axes = ["x", "y", "z"].into_iter().zip(table.at(instant));
             axes.map(move |(axis, value)| (format!("contacts[{contact}].{axis}"), value))

@@ -7,8 +7,8 @@ use crate::error::Error;
 use crate::pipeline::{Solution, solve};
 use crate::report::Report;
 use crate::scene::{
-    MeshSource, Scene, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneObstacle,
-    SceneSupport, SceneSurface,
+    Scene, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneObstacle, SceneSupport,
+    SceneSurface,
 };
 
 /// E = 210 GPa, ν = 0.3; in mm, N, MPa.
@@ -20,13 +20,9 @@ pub(super) const STEEL: Elastic = Elastic {
 /// A body of one material without supports; in 2D in plane strain.
 pub(super) fn body(name: &str, mesh: Mesh, material: Elastic) -> SceneBody {
     SceneBody {
-        name: name.to_owned(),
         model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
-        mesh: MeshSource::Given(mesh),
         materials: vec![SceneMaterial::new(material.young, material.poisson)],
-        supports: Vec::new(),
-        loads: Vec::new(),
-        foundation: Vec::new(),
+        ..SceneBody::new(name, mesh)
     }
 }
 

@@ -85,6 +85,7 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         balances: &balances,
         extremes: &vec![body::Extremes::default(); mechanics.bodies.len()],
         support_forces: &vec![Vec::new(); mechanics.bodies.len()],
+        group_states: &[],
         departure: none,
         fits: &[],
         stages: &StageWork::default(),

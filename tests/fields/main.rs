@@ -5,6 +5,9 @@
 mod gaps;
 mod heat;
 mod loads;
+mod local_supports;
+mod periodic;
+mod rigid_groups;
 mod springs;
 #[path = "../stacks/mod.rs"]
 mod stacks;

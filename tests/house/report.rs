@@ -39,6 +39,7 @@ fn body(name: &str, mesh: Mesh) -> Body {
         supports: vec![],
         loads: vec![],
         foundation: vec![],
+        ties: Vec::new(),
     }
 }
 
@@ -206,6 +207,7 @@ impl Row {
             balances: &self.balances,
             extremes: &self.extremes,
             support_forces: &self.support_forces,
+            group_states: &[],
             departure: Worst::default(),
             fits: &[],
             stages: &STAGES,

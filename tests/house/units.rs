@@ -71,6 +71,7 @@ impl Scales {
                     lengthen(at);
                     displacement
                 }
+                other => unreachable!("{other:?}"),
             };
             for value in displacement.iter_mut().flatten() {
                 *value *= self.length * self.load;

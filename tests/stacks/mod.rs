@@ -4,7 +4,7 @@
 use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded, rectangle};
 use dpana::report::Report;
 use dpana::scene::{
-    MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
+    SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
 };
 use dpana::{Scene, Solution, Status, solve};
 
@@ -21,13 +21,9 @@ pub(crate) fn block(kind: CellKind, low: [f64; 3], high: [f64; 3], cells: [usize
 /// A body of one material, without supports; in 2D in plane strain.
 pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBody {
     SceneBody {
-        name: name.to_owned(),
         model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
-        mesh: MeshSource::Given(mesh),
         materials: vec![SceneMaterial::new(young, poisson)],
-        supports: Vec::new(),
-        loads: Vec::new(),
-        foundation: Vec::new(),
+        ..SceneBody::new(name, mesh)
     }
 }
 

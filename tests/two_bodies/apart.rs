@@ -18,6 +18,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             nodes: nodes.map(|(node, _)| node).collect(),
             displacement,
             offsets: Vec::new(),
+            axes: Vec::new(),
         }
     };
     let supports = vec![
@@ -39,6 +40,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             pressure,
         }],
         foundation: vec![],
+        ties: Vec::new(),
     }
 }
 

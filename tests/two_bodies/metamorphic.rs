@@ -103,6 +103,7 @@ impl Assembly {
                 supports: Vec::new(),
                 loads: Vec::new(),
                 foundation: Vec::new(),
+                ties: Vec::new(),
             });
             let apart = match touching {
                 true => 0.0,
@@ -145,6 +146,7 @@ impl Assembly {
                 nodes: nodes(&body.mesh, group),
                 displacement,
                 offsets: Vec::new(),
+                axes: Vec::new(),
             });
         }
         for body in &mut self.bodies {

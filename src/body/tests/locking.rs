@@ -142,6 +142,7 @@ fn beam(kind: CellKind, poisson: f64) -> Body {
                 nodes: vec![node],
                 displacement,
                 offsets: Vec::new(),
+                axes: Vec::new(),
             });
         }
     }

@@ -33,6 +33,7 @@ pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
         supports: Vec::new(),
         loads: Vec::new(),
         foundation: vec![],
+        ties: Vec::new(),
     }
 }
 
@@ -47,6 +48,7 @@ pub(crate) fn support(nodes: &[usize], axes: &[usize]) -> Support {
         nodes: nodes.to_vec(),
         displacement,
         offsets: Vec::new(),
+        axes: Vec::new(),
     }
 }
 
@@ -104,6 +106,7 @@ pub(crate) fn hold(body: &mut Body, name: &str, axis: usize) {
         nodes: nodes.collect(),
         displacement,
         offsets: Vec::new(),
+        axes: Vec::new(),
     });
 }
 

@@ -75,5 +75,6 @@ fn body(name: &str, nodes: Vec<[f64; 3]>) -> Body {
         supports: Vec::new(),
         loads: Vec::new(),
         foundation: vec![],
+        ties: Vec::new(),
     }
 }

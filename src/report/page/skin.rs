@@ -180,6 +180,7 @@ mod tests {
             supports: Vec::new(),
             loads: Vec::new(),
             foundation: Vec::new(),
+            ties: Vec::new(),
         })
     }
 
