@@ -147,7 +147,7 @@ pub enum Error {
     /// A contact node with friction is moved along the obstacle by a support.
     #[error(
         "{place}: node {node} at {position:?} has friction {friction} and a support moves it \
-         by {displacement} along {axis}; expected 0 there, or no friction"
+         by {displacement} along {axis}; expected 0 there, no friction, or `dragged`: true of the contact if it is meant to slip"
     )]
     DraggedContact {
         /// The contact pair, such as `contacts[0]`.

@@ -270,6 +270,12 @@ impl Dependence {
         self.of[unknown].as_ref()
     }
 
+    /// The given part of a displacement as it is stated, in metre.
+    pub(crate) fn stated(&self, unknown: usize) -> f64 {
+        let terms = self.of(unknown).into_iter().flat_map(|of| &of.values);
+        terms.map(|&(k, a)| a * self.equations[k].value).sum()
+    }
+
     /// Displacements that nothing but the right hand sides gives, per unknown, in metre; `None` elsewhere.
     pub(crate) fn given(&self, values: &[f64]) -> Vec<Option<f64>> {
         let given = |of: &Option<Dependent>| {
@@ -392,5 +398,115 @@ fn place(body: &Body, by: Source) -> String {
         Source::Axis => format!("{}: the axis", body.name),
         Source::Support(index) => body.supports[index].place.clone(),
         Source::Tie(index) => body.ties[index].place().to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body::tests::samples::{block, support};
+    use crate::body::{CellKind, RigidGroup, Support, Tie, TiedPairs};
+
+    fn nodes_at(body: &Body, axis: usize, value: f64) -> Vec<usize> {
+        let nodes = body.mesh.nodes.iter().enumerate();
+        let on = nodes.filter(|(_, x)| x[axis] == value);
+        on.map(|(node, _)| node).collect()
+    }
+
+    /// A block whose right side is rigid, whose bottom rests on a slope, and whose left side moves as some others.
+    fn tied(kind: CellKind) -> Body {
+        let mut body = block(kind);
+        let bottom = nodes_at(&body, 1, 0.0);
+        let slope = [[0.6, 0.8, 0.0], [-0.8, 0.6, 0.0], [0.0, 0.0, 1.0]];
+        body.supports = vec![
+            support(&nodes_at(&body, 1, 1.0)[..1], &[0]),
+            Support {
+                displacement: [Some(0.25), None, None],
+                axes: vec![slope; bottom.len()],
+                ..support(&bottom, &[])
+            },
+        ];
+        let (left, right) = (nodes_at(&body, 0, 0.0), nodes_at(&body, 0, 2.0));
+        let inner = left.iter().map(|node| node + 1);
+        let pairs = left.iter().zip(inner).map(|(a, b)| [*a, b]);
+        body.ties = vec![
+            Tie::Rigid(RigidGroup {
+                place: "rigid_groups[0]".to_owned(),
+                nodes: right,
+                reference_point: [3.0, 1.0, 0.0],
+                rotation: [None, None, Some(0.125)],
+                ..RigidGroup::default()
+            }),
+            Tie::Pairs(TiedPairs {
+                place: "periodic[0]".to_owned(),
+                pairs: pairs.collect(),
+                rotation: [[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]],
+            }),
+        ];
+        body
+    }
+
+    #[test]
+    fn every_equation_holds_whatever_is_left_independent() {
+        for kind in [CellKind::Quad4, CellKind::Hex8] {
+            let body = tied(kind);
+            let found = dependence(&body).unwrap().unwrap();
+            let values = found.values(|_| 1.0);
+            let mut u: Vec<f64> = (0..found.of.len())
+                .map(|k| {
+                    if found.of[k].is_none() {
+                        ((7 * k) % 11) as f64 - 5.0
+                    } else {
+                        0.0
+                    }
+                })
+                .collect();
+            let free = u.clone();
+            for (unknown, of) in found.of.iter().enumerate() {
+                if let Some(of) = of {
+                    let terms = of.terms.iter().map(|&(q, a)| a * free[q]);
+                    u[unknown] = terms.sum::<f64>() + of.constant(&values);
+                }
+            }
+            for (equation, value) in found.equations().iter().zip(&values) {
+                let sum: f64 = equation.terms.iter().map(|&(k, a)| a * u[k]).sum();
+                assert!((sum - value).abs() < 1e-12, "{equation:?}");
+            }
+            // No motion of the group is among what is left.
+            let group = &found.of[body.unknowns()..body.unknowns() + OF_TIE];
+            assert!(
+                body.group_motions()
+                    .iter()
+                    .all(|motion| group[*motion].is_some())
+            );
+            let mut spread = free[..body.unknowns()].to_vec();
+            found.spread(&mut spread);
+            // (T q) · f = q · (Tᵀ f).
+            let forces: Vec<f64> = (0..spread.len())
+                .map(|k| ((5 * k) % 7) as f64 - 3.0)
+                .collect();
+            let mut gathered = forces.clone();
+            found.gather(&mut gathered);
+            let work = |u: &[f64], f: &[f64]| u.iter().zip(f).map(|(u, f)| u * f).sum::<f64>();
+            assert!((work(&spread, &forces) - work(&free, &gathered)).abs() < 1e-10);
+        }
+    }
+
+    #[test]
+    fn a_node_on_a_slope_is_held_across_it() {
+        let body = tied(CellKind::Hex8);
+        let found = dependence(&body).unwrap().unwrap();
+        let middle = nodes_at(&body, 1, 0.0)[2];
+        let held = found.held_directions(middle);
+        assert_eq!(held.len(), 1);
+        assert!((held[0].dot(&Vector3::new(0.6, 0.8, 0.0)).abs() - 1.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_body_without_ties_pays_nothing() {
+        let mut body = block(CellKind::Quad4);
+        body.supports = vec![support(&[0, 1], &[0, 1])];
+        assert!(dependence(&body).unwrap().is_none());
     }
 }

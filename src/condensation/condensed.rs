@@ -270,6 +270,7 @@ mod tests {
             friction: 0.4,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         (body, pair)
     }
@@ -470,6 +471,7 @@ mod tests {
             friction: 0.0,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         let condensed = Condensed::new(&[square], &[pair]).unwrap();
         assert_eq!(condensed.surface().left_out, [(0, 8)]);
@@ -568,6 +570,7 @@ mod tests {
             friction: 0.5,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(

@@ -163,6 +163,7 @@ mod tests {
             friction: 0.3,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         Condensed::new(&[body], &[pair]).unwrap()
     }

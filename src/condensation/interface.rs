@@ -239,7 +239,7 @@ fn interface_node(
         let contact = &surface.nodes[contact];
         let across_supports = unknown_rows(contact)
             .all(|row| row.iter().zip(held).all(|(d, u)| u.is_none() || *d == 0.0));
-        if contact.opposite.is_none() || (across_supports && contact.tangents == 0) {
+        if across_supports && (contact.opposite.is_none() || contact.tangents == 0) {
             return InterfaceNode {
                 node,
                 frame: contact.frame,

@@ -158,6 +158,7 @@ mod tests {
             friction: 0.0,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         (body, pair)
     }

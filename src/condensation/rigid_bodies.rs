@@ -240,6 +240,7 @@ mod tests {
             friction: 0.5,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair]).unwrap();
         (body, rigid)

@@ -272,6 +272,7 @@ mod tests {
             friction: 0.3,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         (vec![upper, lower], pair)
     }

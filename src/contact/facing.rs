@@ -53,6 +53,21 @@ impl Bodies<'_> {
         let dimension = self.bodies[body].mesh.dimension;
         Directions::of(prescribed, tied, dimension, node)
     }
+
+    /// By how much supports move a node along a direction, in metre; zero where it is free.
+    pub(super) fn given_along(&self, body: usize, node: usize, direction: &Vector3<f64>) -> f64 {
+        let dimension = self.bodies[body].mesh.dimension;
+        let given = |axis: usize| {
+            let unknown = dimension * node + axis;
+            match &self.tied[body] {
+                Some(tied) => tied.stated(unknown),
+                None => self.prescribed[body][unknown].unwrap_or(0.0),
+            }
+        };
+        let held = self.held(body, node).hold(direction);
+        let along = (0..dimension).map(|axis| direction[axis] * given(axis));
+        if held { along.sum() } else { 0.0 }
+    }
 }
 
 impl<'a> Boundary<'a> {

@@ -27,6 +27,7 @@ mod node;
 mod obstacle;
 mod on_obstacle;
 mod pair;
+mod repeated;
 mod rounding;
 mod surface;
 mod turn;

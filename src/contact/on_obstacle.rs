@@ -10,6 +10,7 @@ use super::facing::Bodies;
 use super::frame::Stance;
 use super::held::Directions;
 use super::pair::{Coupling, PairSurface};
+use super::repeated;
 use super::{Closest, ContactNode, ContactPair, Obstacle};
 use crate::body::{Axis, Body, Facet};
 use crate::error::Error;
@@ -44,6 +45,7 @@ pub(super) fn on_obstacle(
             None => left_out.push(node),
         }
     }
+    let mut contacts = repeated::join(contacts, body);
     boundary.mark_rims(&mut contacts, &pair.facets, None);
     Ok(PairSurface {
         coupling: Coupling {
@@ -101,13 +103,16 @@ impl View<'_> {
         let dimension = self.body.mesh.dimension;
         let position = self.body.mesh.nodes[node];
         let closest = self.closest(node, position)?;
-        let given = |node: usize, axis: usize| match axis < dimension {
-            true => scene.prescribed[pair.body][node * dimension + axis],
-            false => None,
-        };
         let held = |node| scene.held(pair.body, node);
-        let supported = held_directions(node, &footing.own, closest.direction.into(), held);
-        let stance = Stance::new(dimension, closest.direction, &supported);
+        let mut supported = held_directions(node, &footing.own, closest.direction.into(), held);
+        let found = Stance::new(dimension, closest.direction, &supported);
+        let stance = match (found, pair.friction > 0.0) {
+            (Stance::Free { frame, .. }, true) => {
+                self.slip_by_supports(&footing, frame[0], scene, &mut supported)?;
+                Stance::new(dimension, closest.direction, &supported)
+            }
+            (found, _) => found,
+        };
         let (frame, kept) = match stance {
             Stance::Held => return Ok(None),
             Stance::Free { frame, kept } => (frame, kept),
@@ -121,20 +126,6 @@ impl View<'_> {
                 });
             }
         };
-        let own = footing.own.iter().map(|(node, _)| *node);
-        let across = (0..dimension).filter(|axis| frame[0][*axis] == 0.0);
-        let moved = own.flat_map(|node| across.clone().map(move |axis| (axis, given(node, axis))));
-        let mut moved = moved.filter_map(|(axis, u)| Some((axis, u.filter(|u| *u != 0.0)?)));
-        if let (Some((axis, displacement)), true) = (moved.next(), pair.friction > 0.0) {
-            return Err(Error::DraggedContact {
-                place: pair.place.clone(),
-                node,
-                position,
-                friction: pair.friction,
-                displacement,
-                axis: AXES[axis],
-            });
-        }
         let initial_gap = match footing.own.as_slice() {
             [_] => closest.distance,
             _ => footing.gap,
@@ -154,6 +145,41 @@ impl View<'_> {
             second: false,
             rim: false,
         }))
+    }
+}
+
+impl View<'_> {
+    /// Keeps of the supported directions of a contact with friction those along which nothing moves it: along
+    /// the others it slips, if that is meant.
+    fn slip_by_supports(
+        &self,
+        footing: &Footing,
+        normal: [f64; 3],
+        scene: &Bodies<'_>,
+        supported: &mut Directions,
+    ) -> Result<(), Error> {
+        let (pair, dimension) = (self.pair, self.body.mesh.dimension);
+        let moved = |direction: &Vector3<f64>| {
+            let own = footing.own.iter();
+            let mut moved = own.map(|(node, _)| scene.given_along(pair.body, *node, direction));
+            moved.find(|u| *u != 0.0)
+        };
+        let across = (0..dimension).filter(|axis| normal[*axis] == 0.0);
+        let across = across.map(|axis| Vector3::ith(axis, 1.0));
+        let mut directions = supported.0.iter().copied().chain(across);
+        let refused = directions.find_map(|direction| Some((moved(&direction)?, direction)));
+        if let (Some((displacement, direction)), false) = (refused, pair.dragged) {
+            return Err(Error::DraggedContact {
+                place: pair.place.clone(),
+                node: footing.node,
+                position: self.body.mesh.nodes[footing.node],
+                friction: pair.friction,
+                displacement,
+                axis: AXES[direction.iamax()],
+            });
+        }
+        supported.0.retain(|direction| moved(direction).is_none());
+        Ok(())
     }
 }
 
@@ -193,6 +219,7 @@ mod tests {
             friction: 0.3,
             rounded: true,
             gap: 0.0,
+            dragged: false,
         }
     }
 

@@ -28,6 +28,8 @@ pub struct ContactPair {
     pub rounded: bool,
     /// Added to all gaps before loading, in metre: clearance if positive, interference if negative.
     pub gap: f64,
+    /// Supports may move its nodes along the obstacle, and friction acts against that motion.
+    pub dragged: bool,
 }
 
 /// The other side of a contact pair.

@@ -37,6 +37,10 @@ pub struct SceneContact {
     /// negative; 0 when left out. Meshes may be drawn touching.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub gap: f64,
+    /// Supports may move nodes of the surface along the obstacle: these slip by that motion, and friction acts
+    /// against it. Left out, such a motion is refused where there is friction, as it is mostly a mistake.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub dragged: bool,
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
@@ -171,6 +175,7 @@ impl SceneContact {
             friction: self.friction,
             rounded: self.rounded.unwrap_or(true),
             gap: self.gap,
+            dragged: self.dragged,
         })
     }
 }

@@ -502,6 +502,7 @@ mod tests {
                 friction: 0.0,
                 rounded: None,
                 gap: 0.0,
+                dragged: false,
             }],
             ..Scene::default()
         };

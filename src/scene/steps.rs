@@ -51,7 +51,8 @@ pub struct SceneSteps {
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub at: Vec<f64>,
     /// By what a load or a support is multiplied: rows `[instant, factor]`, rising, under its
-    /// place, such as `bodies[0].loads[1]` or `bodies[0].supports[0]`.
+    /// place, such as `bodies[0].loads[1]` or `bodies[0].supports[0]`; of a rigid group its given motion,
+    /// `bodies[0].rigid_groups[0].motion`, and force and moment, `bodies[0].rigid_groups[0].load`.
     #[serde(default)]
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or

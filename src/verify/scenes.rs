@@ -73,6 +73,7 @@ pub(super) fn pair(bodies: [SceneBody; 2], groups: [&str; 2], friction: f64) -> 
         friction,
         rounded: None,
         gap: 0.0,
+        dragged: false,
     };
     Scene {
         bodies: bodies.to_vec(),

@@ -72,6 +72,7 @@ impl Pressing {
             friction: self.friction,
             rounded: None,
             gap: 0.0,
+            dragged: false,
         });
         certified(&scene)
     }

@@ -1,7 +1,7 @@
 //! Supports in axes of their own, beside the same scene in global axes and closed forms.
 //! (Timoshenko & Goodier, Theory of Elasticity, § 28.)
 
-use dpana::body::{CellKind, Mesh, graded};
+use dpana::body::{CellKind, Group, Mesh, graded};
 use dpana::scene::{SceneAxis, SceneContact, SceneLoad, SceneObstacle, SceneSupport};
 use dpana::{Error, Solution, solve};
 use nalgebra::{Rotation3, Vector3};
@@ -45,11 +45,12 @@ fn pressed(kind: CellKind, halved: bool, turn: Rotation3<f64>) -> Solution {
     }
     half.groups.clear();
     let up = axes - 1;
+    let left = if halved { 0.0 } else { -1.0 };
     let mesh = half
-        .with_surface("cut", |x| x[0] == 0.0)
+        .with_surface("cut", |x| x[0] == left)
         .and_then(|mesh| mesh.with_surface("bottom", |x| x[up] == 0.0))
         .and_then(|mesh| mesh.with_surface("top", |x| x[up] == 1.0));
-    let mesh = turned(mesh.unwrap_or_else(|error| panic!("{error}")), turn);
+    let mesh = turned(mesh.unwrap(), turn);
     let vector = |axis: usize, size: f64| {
         let moved = turn * Vector3::ith(axis, size);
         moved.as_slice()[..axes].to_vec()
@@ -127,6 +128,14 @@ pub(crate) fn sector(kind: CellKind, cells: [usize; 2], angles: [f64; 2]) -> Mes
     mesh
 }
 
+/// In the bore, touching nothing.
+fn shaft() -> SceneObstacle {
+    SceneObstacle::Circle {
+        center: vec![0.0, 0.0],
+        radius: 0.5,
+    }
+}
+
 /// Of E = 1000 Pa, ν = 0.3 in plane strain under 10 Pa in the bore, u_r at r. (§ 28)
 fn lame(r: f64) -> f64 {
     1.3 * 10.0 / (1000.0 * 3.0) * (0.4 * r + 4.0 / r)
@@ -149,8 +158,7 @@ fn a_sector_between_planes_through_the_axis_widens_as_the_whole_ring() {
             .with_support(SceneSupport::around("top", centre(), &[None, Some(0.0)]))
             .with_support(SceneSupport::normal("bottom", 0.0))
             .with_load(SceneLoad::pressure("left", 10.0));
-        let wall = SceneObstacle::plane(&[9.0, 0.0], &[-1.0, 0.0]);
-        let contact = SceneContact::on(wall, "right", 0.0);
+        let contact = SceneContact::on(shaft(), "left", 0.0);
         let (solution, report) = certified(&scene(vec![ring], vec![contact]));
         // Both ends are turned back across the plane: ∫ σ_θ dr = p a of each unit of depth.
         for support in &report.supports {
@@ -187,8 +195,7 @@ fn a_bore_that_is_widened_by_a_length_answers_with_lames_pressure() {
             &[-0.2_f64.sin(), 0.2_f64.cos()],
             0.0,
         ));
-    let wall = SceneObstacle::plane(&[9.0, 0.0], &[-1.0, 0.0]);
-    let contact = SceneContact::on(wall, "right", 0.0);
+    let contact = SceneContact::on(shaft(), "left", 0.0);
     let (_, report) = certified(&scene(vec![ring], vec![contact]));
     let force = report.supports[0]
         .force
@@ -216,4 +223,61 @@ fn supports_that_contradict_each_other_along_any_direction_are_refused_by_place(
         words.contains("supports[1]") && words.contains("supports[0]"),
         "{words}"
     );
+}
+
+#[test]
+fn a_support_that_drags_a_contact_where_it_is_meant_slips_against_friction() {
+    // Between walls that move along, p = E (1−ν)/((1+ν)(1−2ν)) · 0.01; all nodes are dragged, half of them in 3D along
+    // both tangents. In the second scene one side alone is.
+    let pressure = 1000.0 * 0.7 / (1.3 * 0.4) * 0.01;
+    for (kind, group) in [
+        (CellKind::Quad4, "all"),
+        (CellKind::Quad8, "all"),
+        (CellKind::Hex8, "all"),
+        (CellKind::Quad4, "left"),
+    ] {
+        let axes = kind.dimension();
+        let mut mesh = block(kind, [0.0; 3], [1.0; 3], [4, 3, 3]);
+        let nodes = (0..mesh.nodes.len()).collect();
+        mesh.groups.insert("all".to_owned(), Group::Points(nodes));
+        let mut along = vec![None; axes];
+        along[0] = Some(0.003);
+        if axes == 3 {
+            along[1] = Some(-0.004);
+        }
+        let (mut down, mut up) = (vec![None; axes], vec![0.0; axes]);
+        (down[axes - 1], up[axes - 1]) = (Some(-0.01), 1.0);
+        let block = body("block", mesh, 1000.0, 0.3)
+            .with_support(SceneSupport::of(group, &along))
+            .with_support(SceneSupport::of("top", &down));
+        let floor = SceneObstacle::plane(&vec![0.0; axes], &up);
+        let mut contact = SceneContact::on(floor, "bottom", 0.2);
+        let refused = solve(&scene(vec![block.clone()], vec![contact.clone()])).unwrap_err();
+        assert!(matches!(refused, Error::DraggedContact { .. }), "{refused}");
+        contact.dragged = true;
+        let (_, report) = certified(&scene(vec![block], vec![contact]));
+        for contact in report
+            .contacts
+            .iter()
+            .filter(|c| group == "all" || c.position[0] == 0.0)
+        {
+            let (p, t) = (
+                contact.pressure.unwrap(),
+                contact.friction_traction.as_ref().unwrap(),
+            );
+            let expected = if axes == 3 { [-0.6, 0.8] } else { [-1.0, 0.0] };
+            for (t, expected) in t[..axes - 1].iter().zip(expected) {
+                assert!(
+                    (t - 0.2 * p * expected).abs() < 1e-9 * pressure,
+                    "{kind:?} {contact:?}"
+                );
+            }
+            assert!(
+                group == "left" || (p / pressure - 1.0).abs() < 1e-9,
+                "{kind:?} {p}"
+            );
+        }
+        let support = report.supports[0].force[0];
+        assert!((support + report.totals.friction[0]).abs() < 1e-9 * pressure);
+    }
 }

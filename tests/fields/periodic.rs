@@ -87,7 +87,9 @@ fn shrunk(sectors: usize, whole: bool) -> Report {
             cells
                 .iter()
                 .for_each(|nodes| closed.push_cell(CellKind::Quad4, nodes));
-            let closed = closed.with_surface("left", |[x, y, _]| x.hypot(y) < 1.0 + 1e-9);
+            let closed = closed
+                .with_surface("left", |[x, y, _]| x.hypot(y) < 1.0 + 1e-9)
+                .and_then(|mesh| mesh.with_surface("right", |[x, y, _]| x.hypot(y) > 2.0 - 1e-9));
             body("ring", closed.unwrap(), 1000.0, 0.3)
         }
     };
@@ -97,6 +99,8 @@ fn shrunk(sectors: usize, whole: bool) -> Report {
     };
     let mut contact = SceneContact::on(mandrel, "left", 0.2);
     contact.gap = -0.003;
+    // It turns nowhere.
+    let of = of.with_support(SceneSupport::around("right", axis(), &[None, Some(0.0)]));
     certified(&scene(vec![of], vec![contact])).1
 }
 

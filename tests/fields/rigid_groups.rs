@@ -17,7 +17,8 @@ use crate::turns::{LENGTH, POISSON, YOUNG, bar, stiffness};
 fn solved(of: SceneBody, group: &str) -> Report {
     let axes = if of.model.is_some() { 2 } else { 3 };
     let (mut far, mut normal) = (vec![0.0; axes], vec![0.0; axes]);
-    (far[0], normal[0]) = (99.0, -1.0);
+    let across = 3 - axes;
+    (far[across], normal[across]) = (-99.0, 1.0);
     let wall = SceneObstacle::plane(&far, &normal);
     certified(&scene(vec![of], vec![SceneContact::on(wall, group, 0.0)])).1
 }

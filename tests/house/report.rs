@@ -52,6 +52,7 @@ fn pair(place: &str, opposite: Opposite) -> ContactPair {
         friction: 0.5,
         rounded: true,
         gap: 0.0,
+        dragged: false,
     }
 }
 

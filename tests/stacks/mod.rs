@@ -52,6 +52,7 @@ pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneC
         friction,
         rounded: None,
         gap: 0.0,
+        dragged: false,
     }
 }
 
@@ -67,7 +68,12 @@ pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scen
 pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
     let solution = solve(scene).unwrap();
     let faults: Vec<_> = solution.fits().iter().map(|fit| fit.fault()).collect();
-    assert_eq!(solution.status(), Status::Certified, "{faults:?}");
+    assert_eq!(
+        solution.status(),
+        Status::Certified,
+        "{faults:?} {:?}",
+        solution.outcome().shortfall
+    );
     let report = solution.report().unwrap();
     (solution, report)
 }

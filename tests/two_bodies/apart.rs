@@ -64,6 +64,7 @@ fn on_floor(index: usize, body: &Body) -> ContactPair {
         friction: 0.3,
         rounded: true,
         gap: 0.0,
+        dragged: false,
     }
 }
 

@@ -325,6 +325,7 @@ fn pair(bodies: &[Body], level: usize, random: &mut Random) -> ContactPair {
         friction,
         rounded: true,
         gap: 0.0,
+        dragged: false,
     }
 }
 

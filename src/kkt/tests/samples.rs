@@ -51,6 +51,7 @@ pub(crate) fn pairs() -> Vec<ContactPair> {
         friction: 0.5,
         rounded: true,
         gap: 0.0,
+        dragged: false,
     };
     let plane = Obstacle::Plane {
         point: [0.0; 3],

@@ -68,6 +68,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
             friction: 0.3,
             rounded: None,
             gap: 0.0,
+            dragged: false,
         }],
         ..Scene::default()
     }
