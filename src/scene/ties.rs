@@ -174,8 +174,8 @@ impl ScenePeriodic {
                 accepted: "none on an axisymmetric body".to_owned(),
             });
         }
-        let (rotation, centre, shift) = self.mapping(place, mesh)?;
-        let map = |x: [f64; 3]| rotation * (Vector3::from(x) - centre) + centre + shift;
+        let (rotation, shift) = self.mapping(place, mesh)?;
+        let map = |x: [f64; 3]| rotation * Vector3::from(x) + shift;
         let from = selection::nodes(mesh, &format!("{place}.from"), &self.from)?;
         let onto = selection::nodes(mesh, &format!("{place}.onto"), &self.onto)?;
         let pairs = match_nodes(place, mesh, [&from, &onto], map)?;
@@ -186,17 +186,13 @@ impl ScenePeriodic {
         }))
     }
 
-    /// Rotation, centre and translation.
-    fn mapping(
-        &self,
-        place: &str,
-        mesh: &Mesh,
-    ) -> Result<(Rotation3<f64>, Vector3<f64>, Vector3<f64>), Error> {
+    /// `x ↦ R x + shift`.
+    fn mapping(&self, place: &str, mesh: &Mesh) -> Result<(Rotation3<f64>, Vector3<f64>), Error> {
         match (&self.translation, &self.axis, self.angle) {
             (Some(translation), None, None) => {
                 let place = format!("{place}.translation");
                 let shift = selection::vector(&place, translation, mesh.dimension)?;
-                Ok((Rotation3::identity(), Vector3::zeros(), shift.into()))
+                Ok((Rotation3::identity(), shift.into()))
             }
             (None, Some(axis), Some(angle)) => {
                 finite(format!("{place}.angle"), angle)?;
@@ -209,7 +205,8 @@ impl ScenePeriodic {
                 )?;
                 let along = Unit::new_normalize(Vector3::from(line.direction));
                 let rotation = Rotation3::from_axis_angle(&along, angle);
-                Ok((rotation, line.point.into(), Vector3::zeros()))
+                let centre = Vector3::from(line.point);
+                Ok((rotation, centre - rotation * centre))
             }
             _ => Err(Error::NotAccepted {
                 place: place.to_owned(),

@@ -281,3 +281,22 @@ fn a_support_that_drags_a_contact_where_it_is_meant_slips_against_friction() {
         assert!((support + report.totals.friction[0]).abs() < 1e-9 * pressure);
     }
 }
+
+/// A scene that ships.
+pub(crate) fn shipped(name: &str) -> dpana::Scene {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes");
+    dpana::Scene::from_file(format!("{folder}/{name}.json")).unwrap()
+}
+
+#[test]
+fn a_block_between_floor_and_guide_is_a_wedge() {
+    // Everything slides: N = ¾⁻¹ (P − μ N), the guide pushes along (0.6, 0.8).
+    let (_, report) = certified(&shipped("guide"));
+    let normal = 800.0 / (0.75 + 0.1);
+    assert!((report.totals.normal / normal - 1.0).abs() < 1e-9);
+    let [x, y] = [report.supports[0].force[0], report.supports[0].force[1]];
+    assert!(
+        (y + normal).abs() < 1e-6 && (x - 0.75 * y).abs() < 1e-6,
+        "{x} {y}"
+    );
+}

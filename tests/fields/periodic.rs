@@ -10,7 +10,7 @@ use dpana::scene::{
 };
 use dpana::{Variation, cases, solve};
 
-use crate::local_supports::sector;
+use crate::local_supports::{sector, shipped};
 use crate::stacks::{body, certified, scene};
 
 /// Amplitude of the wave, whose length is 1 m.
@@ -167,6 +167,42 @@ fn faces_that_do_not_match_are_refused_with_the_node() {
         assert!(
             words.contains("bodies[0].periodic[0]") && words.contains(says),
             "{words}"
+        );
+    }
+}
+
+#[test]
+fn a_row_of_rollers_repeats_as_between_planes_of_symmetry() {
+    let mut alone = shipped("rollers");
+    let row = certified(&alone).1;
+    assert!((row.totals.contact_force[1] / 1000.0 - 1.0).abs() < 1e-9);
+    let body = &mut alone.bodies[0];
+    body.periodic.clear();
+    for side in ["left", "right"] {
+        body.supports
+            .push(SceneSupport::of(side, &[Some(0.0), None]));
+    }
+    alone.contacts[0].obstacle = Some(SceneObstacle::Circle {
+        center: vec![10.0, -100.0],
+        radius: 100.0,
+    });
+    let alone = certified(&alone).1;
+    let pressed = |report: &Report, middle: f64| -> Vec<(i64, f64)> {
+        let contacts = report.contacts.iter();
+        let found = contacts.map(|contact| {
+            let place = (2.0 * (contact.position[0] - middle)).round() as i64;
+            (place, contact.pressure.unwrap())
+        });
+        let mut found: Vec<_> = found.filter(|(_, pressure)| *pressure > 0.0).collect();
+        found.sort_by_key(|(place, _)| *place);
+        found
+    };
+    let (row, alone) = (pressed(&row, 7.0), pressed(&alone, 10.0));
+    assert_eq!(row.len(), alone.len());
+    for ((place, found), (at, expected)) in row.iter().zip(&alone) {
+        assert!(
+            place == at && (found / expected - 1.0).abs() < 1e-8,
+            "{found} {expected}"
         );
     }
 }

@@ -10,6 +10,7 @@ use dpana::{Error, solve, solve_steps};
 use serde_json::json;
 
 use crate::gaps::read;
+use crate::local_supports::shipped;
 use crate::stacks::{block, body, certified, scene};
 use crate::turns::{LENGTH, POISSON, YOUNG, bar, stiffness};
 
@@ -157,4 +158,19 @@ fn groups_that_tell_no_rotation_are_refused_by_place() {
     let found = solve(&scene(vec![of], vec![contact])).unwrap_err();
     assert!(matches!(found, Error::NotAccepted { .. }), "{found}");
     assert!(found.to_string().contains("rigid_groups[0]"), "{found}");
+}
+
+#[test]
+fn the_head_of_a_punch_carries_no_moment_about_its_reference_point() {
+    let (_, report) = certified(&shipped("punch_head"));
+    let [x, y] = [
+        report.totals.contact_force[0],
+        report.totals.contact_force[1],
+    ];
+    let moment = report.totals.moment[0] - (4.0 * y - 30.0 * x);
+    assert!(
+        (y / 2000.0 - 1.0).abs() < 1e-9 && moment.abs() < 1e-6,
+        "{y} {moment}"
+    );
+    assert!((report.rigid_groups[0].force[0] + x).abs() < 1e-6);
 }
