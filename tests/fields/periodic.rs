@@ -172,37 +172,13 @@ fn faces_that_do_not_match_are_refused_with_the_node() {
 }
 
 #[test]
-fn a_row_of_rollers_repeats_as_between_planes_of_symmetry() {
-    let mut alone = shipped("rollers");
-    let row = certified(&alone).1;
-    assert!((row.totals.contact_force[1] / 1000.0 - 1.0).abs() < 1e-9);
-    let body = &mut alone.bodies[0];
-    body.periodic.clear();
-    for side in ["left", "right"] {
-        body.supports
-            .push(SceneSupport::of(side, &[Some(0.0), None]));
-    }
-    alone.contacts[0].obstacle = Some(SceneObstacle::Circle {
-        center: vec![10.0, -100.0],
-        radius: 100.0,
-    });
-    let alone = certified(&alone).1;
-    let pressed = |report: &Report, middle: f64| -> Vec<(i64, f64)> {
-        let contacts = report.contacts.iter();
-        let found = contacts.map(|contact| {
-            let place = (2.0 * (contact.position[0] - middle)).round() as i64;
-            (place, contact.pressure.unwrap())
-        });
-        let mut found: Vec<_> = found.filter(|(_, pressure)| *pressure > 0.0).collect();
-        found.sort_by_key(|(place, _)| *place);
-        found
-    };
-    let (row, alone) = (pressed(&row, 7.0), pressed(&alone, 10.0));
-    assert_eq!(row.len(), alone.len());
-    for ((place, found), (at, expected)) in row.iter().zip(&alone) {
-        assert!(
-            place == at && (found / expected - 1.0).abs() < 1e-8,
-            "{found} {expected}"
-        );
-    }
+fn a_row_of_rollers_carries_its_load_below_the_middle_of_each() {
+    // The roller is at x = 7, not in the middle of the piece that repeats: mirrored about it all the same.
+    let (_, report) = certified(&shipped("rollers"));
+    let [x, y] = [
+        report.totals.contact_force[0],
+        report.totals.contact_force[1],
+    ];
+    assert!((y / 1000.0 - 1.0).abs() < 1e-9 && x.abs() < 1e-6, "{x} {y}");
+    assert!((report.totals.moment[0] / 7000.0 - 1.0).abs() < 1e-6);
 }
