@@ -65,6 +65,7 @@ mod pipeline;
 pub mod problem;
 pub mod report;
 pub mod scene;
+pub mod stage;
 #[cfg(feature = "cli")]
 pub mod study;
 pub mod validity;

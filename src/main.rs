@@ -1,4 +1,4 @@
-//! The command line: solve, cases, limit, half-space, study, check, import, schema, verify, and
+//! The command line: solve, cases, limit, half-space, study, check, new, import, schema, verify, and
 //! completions and manual pages for itself.
 
 mod commands;
@@ -9,7 +9,9 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use commands::{Cases, Check, Completions, HalfSpace, Import, Limit, Man, Solve, Study, Verify};
+use commands::{
+    Cases, Check, Completions, HalfSpace, Import, Limit, Man, New, Solve, Study, Verify,
+};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -48,6 +50,8 @@ enum Command {
     Study(Study),
     /// Read a scene and its meshes and say what is wrong, without solving.
     Check(Check),
+    /// Write a starter scene for a mesh file, with its groups filled in and comments on what to change.
+    New(New),
     /// Turn an Abaqus or CalculiX deck into a scene and Gmsh meshes.
     Import(Import),
     /// Print the JSON Schema of scenes.
@@ -91,6 +95,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
         Command::HalfSpace(arguments) => commands::half_space(&arguments),
         Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::New(arguments) => commands::new(&arguments),
         Command::Import(arguments) => commands::import(&arguments),
         Command::Schema => commands::schema(),
         Command::Verify(arguments) => commands::verify(&arguments),

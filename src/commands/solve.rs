@@ -2,11 +2,12 @@
 
 use std::error::Error;
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::{self, Cell, Continuity, Page, Table, replace_file, vtu};
+use dpana::report::{self, Cell, Continuity, Page, Reason, Report, Table, replace_file, vtu};
 use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
@@ -70,9 +71,16 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
+    /// Print the whole report on standard output, in JSON, and no summary.
+    #[arg(long, conflicts_with = "report")]
+    json: bool,
     /// Print no summary and no progress: the exit status says whether the state is certified.
     #[arg(short, long)]
     quiet: bool,
+    /// Print the sweeps of the outer loop below the summary (of the last state, where the scene has
+    /// load steps).
+    #[arg(short, long, conflicts_with_all = ["quiet", "json"])]
+    verbose: bool,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -93,7 +101,7 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     };
     let mut jumps = Vec::new();
     let mut states = States::new(arguments, axes, &scene, from.as_ref())?;
-    let progress = Progress::new(arguments.quiet);
+    let progress = Progress::of_stages(arguments.quiet);
     let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
         if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
             let (number, all) = (step.number(), steps.at.len());
@@ -120,12 +128,19 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     if let Some(path) = arguments.table.as_ref().filter(|path| is_standard(path)) {
         write_table(path, &states.table)?;
     }
-    if !arguments.quiet {
+    if !arguments.quiet && !arguments.json {
         let outputs = || arguments.report.iter().chain(&arguments.table);
         say(outputs(), report.summary().trim_end())?;
         for jump in jumps {
             say(outputs(), &jump)?;
         }
+        if arguments.verbose {
+            say(outputs(), sweeps(&report).trim_end())?;
+        }
+    }
+    if let Some(hint) = restart_hint(arguments, &report) {
+        // With standard error closed there is nobody left to tell.
+        let _ = writeln!(io::stderr(), "{hint}");
     }
     Ok(match solution.status() {
         Status::Certified => ExitCode::SUCCESS,
@@ -137,6 +152,9 @@ impl Solve {
     /// The same with an ending where a file needs one.
     fn completed(&self) -> Self {
         let mut completed = self.clone();
+        if completed.json {
+            completed.report = Some(PathBuf::from("-"));
+        }
         if let Some(vtu) = &mut completed.vtu
             && vtu.extension().is_none()
             && !is_standard(vtu)
@@ -146,6 +164,41 @@ impl Solve {
         }
         completed
     }
+}
+
+/// A line per sweep of the outer loop.
+fn sweeps(report: &Report) -> String {
+    let mut text =
+        String::from("sweep  residual   cone iterations  Newton steps  open  stick   slip\n");
+    for (number, sweep) in (1..).zip(&report.history) {
+        let cone = sweep.coulomb_iterations + sweep.normal_iterations + sweep.friction_iterations;
+        text += &format!(
+            "{number:5}  {:8.1e}  {cone:16}  {:12}  {:4}  {:5}  {:5}\n",
+            sweep.residual, sweep.newton_steps, sweep.open, sweep.stick, sweep.slip
+        );
+    }
+    text
+}
+
+/// How to go on with a load history that was interrupted, or ran out of its time.
+fn restart_hint(arguments: &Solve, report: &Report) -> Option<String> {
+    let reason = report.shortfall.as_ref()?.reason;
+    report.step.as_ref()?;
+    if !matches!(reason, Reason::Interrupted | Reason::TimeLimit) || arguments.quiet {
+        return None;
+    }
+    let scene = arguments.scene.display();
+    Some(match &arguments.state {
+        Some(state) if state.exists() => {
+            let state = state.display();
+            format!("go on with: dpana solve {scene} --restart {state} --state {state}")
+        }
+        _ => {
+            "go on: from the first step only; with `--state FILE` every certified step is kept to \
+            `--restart` from"
+                .to_owned()
+        }
+    })
 }
 
 /// What there is to say of jumps on the way to a state.

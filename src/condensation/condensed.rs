@@ -19,6 +19,7 @@ use crate::body::Body;
 use crate::contact::{ContactPair, ContactSurface};
 use crate::error::{Error, check_length};
 use crate::problem::{ContactProblem, Operator};
+use crate::stage::{self, Stage};
 
 /// Bodies, their contact surface, and the factors that join them; copies share the factors.
 #[derive(Clone, Debug)]
@@ -74,12 +75,13 @@ impl Condensed {
         prescribed: Vec<Vec<Option<f64>>>,
         start: Instant,
     ) -> Result<Self, Error> {
-        dense_bytes(&surface)?;
+        stage::found(surface.nodes.len(), dense_bytes(&surface)?);
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
         let (mut condensed, mut interfaces) = (Vec::new(), Vec::new());
         let mut of_interfaces = Vec::new();
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
+            Stage::Assembly.begin();
             let interface = Interface::new(&surface, index, dimension, &prescribed);
             let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
             let supported = SupportedBody {
@@ -98,6 +100,7 @@ impl Condensed {
         }
         let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
+        Stage::Condensation.begin();
         let start = Instant::now();
         let mut problem = join(&surface, pairs, &interfaces, &condensed, of_interfaces)?;
         let groundings: Vec<_> = condensed.iter().map(CondensedBody::grounding).collect();

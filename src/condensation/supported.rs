@@ -14,6 +14,7 @@ use super::local_axes::{Frames, InterfaceNode};
 use super::ordering::{Ordering, Role};
 use crate::error::Error;
 use crate::problem::Operator;
+use crate::stage::Stage;
 
 /// The assembled body, before it is condensed.
 pub(super) struct SupportedBody<'a> {
@@ -51,6 +52,7 @@ impl SupportedBody<'_> {
         interface: &Interface,
         work: &mut CondensationWork,
     ) -> Result<(CondensedBody, OfInterface), Error> {
+        Stage::Ordering.begin();
         let start = Instant::now();
         let nodes = interface.condensed_nodes();
         let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
@@ -59,6 +61,7 @@ impl SupportedBody<'_> {
             .ok_or_else(|| self.too_large("ordering"))?;
         work.ordering_seconds += start.elapsed().as_secs_f64();
 
+        Stage::Factorisation.begin();
         let start = Instant::now();
         let grounded = self.grounding.ground(&self.stiffness);
         let factor = Factor::new(&grounded, &frames, &ordering, &interface.border)
@@ -70,6 +73,7 @@ impl SupportedBody<'_> {
         work.condensed_unknowns += factor.contact_unknowns();
         work.factor_entries += factor.entries();
 
+        Stage::Condensation.begin();
         let start = Instant::now();
         let of_interface = match factor.is_bordered() {
             true => OfInterface::Compliance(factor.border_compliance()),

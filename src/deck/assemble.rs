@@ -10,7 +10,7 @@ use super::parts::{Part, Parts};
 use super::statement::Notes;
 use crate::body::{Facet, Group, Mesh};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Contents, Side, Space};
+use crate::mesh_file::abaqus::{Contents, Shape, Side, Space};
 use crate::scene::{
     MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel, SceneSteps,
     SceneSupport, SceneSurface,
@@ -83,7 +83,9 @@ impl Stock<'_, '_> {
                 }
             }
             cell.insert(at, mesh.cell_count());
-            mesh.push_cell(element.kind.cell, &local);
+            if let Shape::Cell(kind) = element.kind.shape {
+                mesh.push_cell(kind, &local);
+            }
         }
         let mut body = SceneBody {
             name: of_part.name.clone(),

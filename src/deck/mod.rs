@@ -38,7 +38,7 @@ mod statement;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Contents, Source, cards, flatten};
+use crate::mesh_file::abaqus::{Contents, ElementKind, Source, cards, flatten};
 use crate::scene::{Scene, read};
 
 use amplitude::amplitudes;
@@ -101,7 +101,7 @@ impl Deck {
         };
         let flat = flatten(&cards)?;
         let statement = Statement::new(&flat, &mut notes)?;
-        let contents = Contents::new(&flat)?;
+        let contents = Contents::new(&flat, ElementKind::new)?;
         if contents.elements.is_empty() {
             return Err(last.error("the deck ends; expected *NODE and *ELEMENT with data"));
         }

@@ -28,6 +28,7 @@ use crate::report::{
     Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
+use crate::stage::Stage;
 use crate::{alternation, body, kkt, validity};
 
 pub use cases::{Variation, cases, cases_watched};
@@ -92,6 +93,7 @@ impl Setup {
 
     /// Recovers the bodies of a solved problem, and measures them.
     fn recover(mut self, outcome: Outcome) -> Result<Solution, Error> {
+        Stage::Recovery.begin();
         let start = Instant::now();
         let (outcome, displacements) = self.displacements(outcome)?;
         let seconds = start.elapsed().as_secs_f64();

@@ -47,6 +47,7 @@ impl StatedScene {
             let held = MeshSource::File {
                 file: PathBuf::from("in memory"),
                 scale: 1.0,
+                split: None,
             };
             match std::mem::replace(&mut body.mesh, held) {
                 MeshSource::Given(mesh) => meshes.push((at, Mesh(mesh))),

@@ -83,7 +83,7 @@ pub use page::Page;
 pub(crate) use page::PageState;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
-pub use shortfall::ReportedShortfall;
+pub use shortfall::{Reason, ReportedShortfall};
 pub(crate) use step::ReportedHalving;
 pub use step::{ReportedLedger, ReportedStep};
 #[cfg(feature = "cli")]

@@ -32,6 +32,7 @@ pub struct SceneContact {
     pub friction: f64,
     /// Gaps are measured between the smooth surfaces that straight facets stand for, as the turns
     /// between these say; `false`: between the facets. Left out, they are rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounded: Option<bool>,
     /// Length added to all gaps of the contact before loading: clearance if positive, interference if
     /// negative; 0 when left out. Meshes may be drawn touching.

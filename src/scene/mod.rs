@@ -71,11 +71,11 @@ use mesh_source::MOST_NODES;
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
     /// Where editors find the schema of scenes; not read.
-    #[serde(default, rename = "$schema")]
+    #[serde(default, rename = "$schema", skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// Anything the author wants to say; not read.
-    #[serde(default)]
-    pub comment: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub comment: Option<SceneComment>,
     /// Shown in reports.
     #[serde(default)]
     pub title: String,
@@ -99,6 +99,17 @@ pub struct Scene {
     /// its folder. Empty for a scene built in code.
     #[serde(skip)]
     pub source: PathBuf,
+}
+
+/// What the author of a scene wants to say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "text, or a list of lines of text")]
+pub enum SceneComment {
+    /// One line.
+    Line(String),
+    /// Several.
+    Lines(Vec<String>),
 }
 
 /// Settings of the solve; left out, the defaults hold.
@@ -577,6 +588,6 @@ mod tests {
         );
         let meshes = schema["$defs"]["MeshSource"]["anyOf"].as_array().unwrap();
         let of_meshes: Vec<_> = meshes.iter().map(keys).collect();
-        assert_eq!(of_meshes, ["file scale", "rectangle", "box"]);
+        assert_eq!(of_meshes, ["file scale split", "rectangle", "box"]);
     }
 }

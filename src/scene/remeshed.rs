@@ -93,7 +93,8 @@ mod tests {
             *mesh,
             MeshSource::File {
                 file: path,
-                scale: 2.0
+                scale: 2.0,
+                split: None,
             }
         );
         for meshes in [&[GRID][..], &[FILE, FILE]] {

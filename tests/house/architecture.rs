@@ -8,14 +8,18 @@ use crate::rust_words::{tokens, without_tests};
 
 /// A module and what it may import of ours; `main` with its `commands` and `python`, a package of its
 /// own, are users of the public API.
-const MAY_IMPORT: [(&str, &[&str]); 22] = [
+const MAY_IMPORT: [(&str, &[&str]); 23] = [
     ("error", &[]),
+    ("stage", &[]),
     ("closed_forms", &["error"]),
     ("body", &["error"]),
     ("mesh_file", &["body", "error"]),
     ("contact", &["body", "mesh_file", "error"]),
     ("problem", &["error"]),
-    ("condensation", &["body", "contact", "problem", "error"]),
+    (
+        "condensation",
+        &["body", "contact", "problem", "error", "stage"],
+    ),
     ("cone", &["problem", "limit", "error"]),
     ("limit", &["problem", "error"]),
     ("half_space", &["error"]),
@@ -23,11 +27,15 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
         "kkt",
         &["body", "contact", "problem", "condensation", "error"],
     ),
-    ("alternation", &["problem", "cone", "limit", "kkt", "error"]),
+    (
+        "alternation",
+        &["problem", "cone", "limit", "kkt", "error", "stage"],
+    ),
     (
         "report",
         &[
             "body",
+            "mesh_file",
             "contact",
             "problem",
             "condensation",
@@ -68,6 +76,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "scene",
             "half_space",
             "error",
+            "stage",
         ],
     ),
     (

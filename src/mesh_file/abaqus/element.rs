@@ -9,6 +9,7 @@
 //! locks, which is the solver's own matter.
 
 use crate::body::CellKind;
+use crate::mesh_file::elements::Shape;
 
 /// How strain and stress live in an element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,8 +27,10 @@ pub(crate) enum Space {
 /// A kind of element.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ElementKind {
-    /// The cell that it becomes.
-    pub(crate) cell: CellKind,
+    /// What it becomes.
+    pub(crate) shape: Shape,
+    /// Number of nodes.
+    pub(super) nodes: usize,
     /// Where it lives.
     pub(crate) space: Space,
 }
@@ -75,9 +78,38 @@ const REFUSED: [(&str, &str); 20] = [
     ("U", "a user's element"),
 ];
 
+/// Beginnings of the names of elements that describe lines and surfaces where only geometry counts, and
+/// their number of nodes.
+const GEOMETRY: [(&str, Shape, usize); 24] = [
+    ("T2D2", Shape::Line, 2),
+    ("T3D2", Shape::Line, 2),
+    ("B21", Shape::Line, 2),
+    ("B31", Shape::Line, 2),
+    ("T2D3", Shape::Line, 3),
+    ("T3D3", Shape::Line, 3),
+    ("B22", Shape::Line, 3),
+    ("B32", Shape::Line, 3),
+    ("STRI65", Shape::Cell(CellKind::Tri6), 6),
+    ("STRI3", Shape::Cell(CellKind::Tri3), 3),
+    ("R3D3", Shape::Cell(CellKind::Tri3), 3),
+    ("R3D4", Shape::Cell(CellKind::Quad4), 4),
+    ("M3D3", Shape::Cell(CellKind::Tri3), 3),
+    ("M3D4", Shape::Cell(CellKind::Quad4), 4),
+    ("M3D6", Shape::Cell(CellKind::Tri6), 6),
+    ("M3D8", Shape::Cell(CellKind::Quad8), 8),
+    ("SFM3D3", Shape::Cell(CellKind::Tri3), 3),
+    ("SFM3D4", Shape::Cell(CellKind::Quad4), 4),
+    ("SFM3D6", Shape::Cell(CellKind::Tri6), 6),
+    ("SFM3D8", Shape::Cell(CellKind::Quad8), 8),
+    ("S3", Shape::Cell(CellKind::Tri3), 3),
+    ("S4", Shape::Cell(CellKind::Quad4), 4),
+    ("S6", Shape::Cell(CellKind::Tri6), 6),
+    ("S8", Shape::Cell(CellKind::Quad8), 8),
+];
+
 impl ElementKind {
     /// The kind of a name in capitals, or why it is not read.
-    pub(super) fn new(name: &str) -> Result<Self, String> {
+    pub(crate) fn new(name: &str) -> Result<Self, String> {
         let (space, rest) = [
             ("C3D", Space::Solid),
             ("CPE", Space::PlaneStrain),
@@ -102,24 +134,48 @@ impl ElementKind {
             _ => return Err(refusal(name)),
         };
         match letters.chars().all(|letter| "RIHMS".contains(letter)) {
-            true => Ok(Self { cell, space }),
+            true => Ok(Self {
+                shape: Shape::Cell(cell),
+                nodes: cell.node_count(),
+                space,
+            }),
             false => Err(refusal(name)),
+        }
+    }
+
+    /// The kind of a name in capitals where nothing but geometry counts: trusses, beams, shells and
+    /// membranes describe lines and surfaces, whatever letters follow.
+    pub(super) fn of_geometry(name: &str) -> Result<Self, String> {
+        let lower = GEOMETRY.iter().find(|(start, ..)| name.starts_with(start));
+        match lower {
+            Some(&(_, shape, nodes)) => Ok(Self {
+                shape,
+                nodes,
+                space: Space::Solid,
+            }),
+            None => Ok(Self {
+                space: Space::Solid,
+                ..Self::new(name.trim_end_matches(|c: char| c.is_ascii_alphabetic()))?
+            }),
         }
     }
 
     /// Turns the nodes of an element into the order of its cell.
     pub(super) fn cell_nodes(self, nodes: &[usize]) -> Vec<usize> {
         let reordered = |order: &[usize]| order.iter().map(|&at| nodes[at]).collect();
-        match self.cell {
-            CellKind::Hex20 => reordered(&HEX20),
-            CellKind::Tet10 => reordered(&TET10),
+        match self.shape {
+            Shape::Cell(CellKind::Hex20) => reordered(&HEX20),
+            Shape::Cell(CellKind::Tet10) => reordered(&TET10),
             _ => nodes.to_vec(),
         }
     }
 
     /// Corners of the face of a number, from 1.
     pub(super) fn face(self, number: usize) -> Option<&'static [usize]> {
-        let faces: &[&[usize]] = match self.cell {
+        let Shape::Cell(kind) = self.shape else {
+            return None;
+        };
+        let faces: &[&[usize]] = match kind {
             CellKind::Tet4 | CellKind::Tet10 => &TETRAHEDRON,
             CellKind::Hex8 | CellKind::Hex20 => &HEXAHEDRON,
             CellKind::Tri3 | CellKind::Tri6 => &TRIANGLE,
@@ -130,14 +186,19 @@ impl ElementKind {
 
     /// The cell's facet on the face of a number, from 1.
     pub(crate) fn facet(self, number: usize) -> Option<&'static [usize]> {
-        let corners = self.face(number)?;
-        let mut facets = self.cell.facets().iter().copied();
+        let (corners, Shape::Cell(kind)) = (self.face(number)?, self.shape) else {
+            return None;
+        };
+        let mut facets = kind.facets().iter().copied();
         facets.find(|facet| corners.iter().all(|corner| facet.contains(corner)))
     }
 
     /// Number of faces.
     pub(super) fn faces(self) -> usize {
-        self.cell.facets().len()
+        match self.shape {
+            Shape::Cell(kind) => kind.facets().len(),
+            _ => 0,
+        }
     }
 }
 
@@ -167,7 +228,7 @@ mod tests {
             };
             let facets = (1..=kind.faces()).map(|number| kind.facet(number).unwrap());
             let facets: std::collections::BTreeSet<_> = facets.collect();
-            assert_eq!(facets.len(), kind.cell.facets().len(), "{name}");
+            assert_eq!(facets.len(), kind.faces(), "{name}");
             assert!(kind.facet(0).is_none() && kind.facet(kind.faces() + 1).is_none());
         }
     }
@@ -182,13 +243,15 @@ mod tests {
         let tetrahedron = vec![(0, 1), (1, 2), (2, 0), (0, 3), (1, 3), (2, 3)];
         for (name, edges) in [("C3D20", hexahedron), ("C3D10", tetrahedron)] {
             let kind = ElementKind::new(name).unwrap();
-            let count = kind.cell.node_count();
+            let (Shape::Cell(cell), count) = (kind.shape, kind.nodes) else {
+                unreachable!()
+            };
             let deck = kind.cell_nodes(&(0..count).collect::<Vec<_>>());
-            for (at, &place) in deck.iter().enumerate().skip(kind.cell.corner_count()) {
-                let (a, b) = edges[place - kind.cell.corner_count()];
-                let (a, b) = (kind.cell.position(a), kind.cell.position(b));
+            for (at, &place) in deck.iter().enumerate().skip(cell.corner_count()) {
+                let (a, b) = edges[place - cell.corner_count()];
+                let (a, b) = (cell.position(a), cell.position(b));
                 let middle = [0, 1, 2].map(|axis| 0.5 * (a[axis] + b[axis]));
-                assert_eq!(kind.cell.position(at), middle, "{name} {at}");
+                assert_eq!(cell.position(at), middle, "{name} {at}");
             }
         }
     }

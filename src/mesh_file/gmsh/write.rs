@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::contents::Shape;
+use super::super::elements::Shape;
 use crate::body::{CellKind, Group, Mesh};
 
 /// Gmsh's numbers of cells and facets.

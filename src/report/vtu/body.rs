@@ -1,8 +1,9 @@
 //! The bodies: displacement and stress.
 
 use super::document::{Cells, Document, Section};
-use crate::body::{CellKind, Mesh, principal, von_mises};
+use crate::body::{Mesh, principal, von_mises};
 use crate::error::{Error, check_length};
+use crate::mesh_file::vtu::vtk_kind;
 
 /// Fields of a body; a field that is empty in all bodies is left out of the file.
 ///
@@ -116,28 +117,10 @@ fn has_field<'a>(
     Ok(present)
 }
 
-/// VTK's number of a cell, and the mesh's local nodes at the end of VTK's order where it is another.
-fn vtk_kind(kind: CellKind) -> (u8, &'static [usize]) {
-    const EDGES_THEN_FACES: [usize; 19] = [
-        8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26,
-    ];
-    match kind {
-        CellKind::Tri3 => (5, &[]),
-        CellKind::Quad4 => (9, &[]),
-        CellKind::Tet4 => (10, &[]),
-        CellKind::Hex8 => (12, &[]),
-        CellKind::Tri6 => (22, &[]),
-        CellKind::Quad8 => (23, &[]),
-        CellKind::Quad9 => (28, &[]),
-        CellKind::Tet10 => (24, &[9, 8]),
-        CellKind::Hex20 => (25, EDGES_THEN_FACES.split_at(12).0),
-        CellKind::Hex27 => (29, &EDGES_THEN_FACES),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::CellKind;
 
     /// Nodes between which those of a quadratic cell stand, in VTK's order after the corners: the
     /// edges, then the corners of faces (VTK, vtkCellType and its cells' documentation).

@@ -2,9 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::Version;
-use super::contents::{Contents, Element, MOST_NODES, Nodes, Shape};
-use super::lines::Lines;
+use super::elements::{Contents, Element, MOST_NODES, Nodes, Places, Shape};
 use crate::body::{Facet, Group, Mesh};
 use crate::error::Error;
 
@@ -18,30 +16,35 @@ const MESH_IT: &str = "for a solid mesh its volume (`gmsh -3`), for a plane body
 /// Node of the file that the mesh does not hold.
 const DROPPED: usize = usize::MAX;
 
-/// Builds the mesh; `lines` stand at the end of the file.
+/// Builds the mesh.
+///
+/// `repeats`: whether an element is repeated for each of its groups.
 pub(super) fn mesh(
     contents: &Contents,
-    version: Version,
-    lines: &Lines<'_>,
+    repeats: bool,
+    places: &impl Places,
 ) -> Result<Mesh, Error> {
-    let missing = |section| lines.error(format!("the file ends; expected `${section}`"));
+    let missing = |section| places.fault(None, format!("the file ends; expected `${section}`"));
     let nodes = contents.nodes.as_ref().ok_or_else(|| missing("Nodes"))?;
     let elements = contents.elements.as_deref();
     let elements = elements.ok_or_else(|| missing("Elements"))?;
     let dimension = elements.iter().map(|e| e.shape.dimension()).max();
     let Some(dimension @ 2..=3) = dimension else {
-        return Err(lines.error(format!(
-            "no cell: expected triangles, quadrilaterals, tetrahedra or hexahedra; {MESH_IT}"
-        )));
+        return Err(places.fault(
+            None,
+            format!(
+                "no cell: expected triangles, quadrilaterals, tetrahedra or hexahedra; {MESH_IT}"
+            ),
+        ));
     };
     let new_index = number_nodes(contents, nodes, elements, dimension);
     let mut mesh = Mesh::new(dimension.into(), kept_positions(nodes, &new_index));
     if dimension == 2 {
-        flatten(&mut mesh, nodes, &new_index, lines)?;
+        flatten(&mut mesh, nodes, &new_index, places)?;
     }
-    let cells = push_cells(&mut mesh, elements, &new_index, version, lines)?;
+    let cells = push_cells(&mut mesh, elements, &new_index, repeats, places)?;
     let by_key = collect_groups(contents, elements, &cells, &new_index, dimension);
-    mesh.groups = name_groups(contents, by_key, lines)?;
+    mesh.groups = name_groups(contents, by_key, places)?;
     Ok(mesh)
 }
 
@@ -84,7 +87,7 @@ fn flatten(
     mesh: &mut Mesh,
     nodes: &Nodes,
     new_index: &[usize],
-    lines: &Lines<'_>,
+    places: &impl Places,
 ) -> Result<(), Error> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     for position in &mesh.nodes {
@@ -99,11 +102,14 @@ fn flatten(
         if (position[2] - height).abs() > FLAT * size {
             let old = new_index.iter().position(|&index| index == new);
             let tag = old.map_or(0, |old| nodes.tags()[old]);
-            return Err(lines.error(format!(
-                "node {tag} of a plane mesh lies at z = {}; expected z = {height} as for the \
+            return Err(places.fault(
+                None,
+                format!(
+                    "node {tag} of a plane mesh lies at z = {}; expected z = {height} as for the \
                  other nodes, or the cells of a solid; {MESH_IT}",
-                position[2]
-            )));
+                    position[2]
+                ),
+            ));
         }
         position[2] = 0.0;
     }
@@ -118,8 +124,8 @@ fn push_cells(
     mesh: &mut Mesh,
     elements: &[Element],
     new_index: &[usize],
-    version: Version,
-    lines: &Lines<'_>,
+    repeats: bool,
+    places: &impl Places,
 ) -> Result<Vec<usize>, Error> {
     let mut first_by_corners: HashMap<[u32; 8], (usize, &Element)> = HashMap::new();
     let mut cells = Vec::new();
@@ -142,12 +148,12 @@ fn push_cells(
                 *slot = new_index[node];
             }
             mesh.push_cell(kind, &nodes[..element.count]);
-        } else if version == Version::Four || first.entity == element.entity {
-            return Err(lines.error_at(
-                element.place,
+        } else if !repeats || first.entity == element.entity {
+            return Err(places.fault(
+                Some(element.place),
                 format!(
                     "the element repeats the cell of {}",
-                    lines.name_of(first.place)
+                    places.name_of(first.place)
                 ),
             ));
         }
@@ -204,7 +210,7 @@ fn collect_groups(
 fn name_groups(
     contents: &Contents,
     by_key: BTreeMap<(u8, u32), Group>,
-    lines: &Lines<'_>,
+    places: &impl Places,
 ) -> Result<BTreeMap<String, Group>, Error> {
     let name = |key: &(u8, u32)| match contents.names.get(key) {
         Some(name) => name.clone(),
@@ -233,9 +239,10 @@ fn name_groups(
             (Some(Group::Edges(members)), Group::Edges(more)) => members.extend(more),
             (Some(Group::Points(members)), Group::Points(more)) => members.extend(more),
             _ => {
-                return Err(lines.error(format!(
-                    "physical groups of different dimensions are both named `{name}`"
-                )));
+                return Err(places.fault(
+                    None,
+                    format!("physical groups of different dimensions are both named `{name}`"),
+                ));
             }
         }
     }

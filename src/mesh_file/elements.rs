@@ -1,18 +1,25 @@
-//! What a .msh file says, before it becomes a mesh.
+//! What a mesh file says, before it becomes a mesh: nodes, elements and the groups they belong to.
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::fields::quote;
-use super::lines::Lines;
 use crate::body::CellKind;
 use crate::error::Error;
+
+/// Where things stand in a file, for messages.
+pub(super) trait Places {
+    /// An error at a place, or at what was read last.
+    fn fault(&self, place: Option<usize>, reason: String) -> Error;
+
+    /// A place as words in a sentence.
+    fn name_of(&self, place: usize) -> String;
+}
 
 /// Most nodes of an element.
 pub(super) const MOST_NODES: usize = 27;
 
 /// Shape of an element that is read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Shape {
+pub(crate) enum Shape {
     /// One node.
     Point,
     /// Two nodes, or three.
@@ -55,7 +62,7 @@ impl Shape {
     }
 
     /// Dimension of the shape, 0 to 3.
-    pub(super) fn dimension(self) -> u8 {
+    pub(crate) fn dimension(self) -> u8 {
         match self {
             Self::Point => 0,
             Self::Line => 1,
@@ -97,15 +104,18 @@ pub(super) struct Nodes {
 
 impl Nodes {
     /// Sorts nodes by tag and refuses a tag that comes twice.
-    pub(super) fn new(mut listed: Vec<(u64, [f64; 3])>, lines: &Lines<'_>) -> Result<Self, Error> {
+    pub(super) fn new(
+        mut listed: Vec<(u64, [f64; 3])>,
+        places: &impl Places,
+    ) -> Result<Self, Error> {
         if listed.len() >= u32::MAX as usize {
-            return Err(lines.error("more nodes than can be numbered"));
+            return Err(places.fault(None, "more nodes than can be numbered".to_owned()));
         }
         if !listed.is_sorted_by_key(|&(tag, _)| tag) {
             listed.sort_unstable_by_key(|&(tag, _)| tag);
         }
         if let Some(twice) = listed.windows(2).find(|pair| pair[0].0 == pair[1].0) {
-            return Err(lines.error(format!("node {} is listed twice", twice[0].0)));
+            return Err(places.fault(None, format!("node {} is listed twice", twice[0].0)));
         }
         let (tags, positions) = listed.into_iter().unzip();
         Ok(Self { tags, positions })
@@ -147,51 +157,16 @@ pub(super) struct Contents {
 }
 
 impl Contents {
-    /// Reads lines such as `2 100 "body"`.
-    pub(super) fn read_names(&mut self, lines: &mut Lines<'_>) -> Result<(), Error> {
-        let mut head = lines.fields(&"the number of physical names")?;
-        let count: usize = head.size("number of physical names")?;
-        for at in 0..count {
-            let line = lines.line(&format_args!("physical name {} of {count}", at + 1))?;
-            let named = line
-                .split_once('"')
-                .and_then(|(numbers, rest)| Some((numbers, rest.strip_suffix('"')?)));
-            let Some((numbers, name)) = named else {
-                return Err(lines.error(format!(
-                    "expected dimension, number and quoted name, found {}",
-                    quote(line)
-                )));
-            };
-            let key: Vec<i32> = numbers
-                .split_ascii_whitespace()
-                .map_while(|word| word.parse().ok())
-                .collect();
-            let &[dimension @ 0..=3, number] = &key[..] else {
-                return Err(lines.error(format!(
-                    "expected a dimension from 0 to 3 and a number, found {}",
-                    quote(numbers)
-                )));
-            };
-            let key = (dimension as u8, number.unsigned_abs());
-            if self.names.insert(key, name.to_owned()).is_some() {
-                return Err(lines.error(format!(
-                    "physical group {number} of dimension {dimension} is named twice"
-                )));
-            }
-        }
-        Ok(())
-    }
-
     /// Keeps the nodes; a second section is an error.
     pub(super) fn keep_nodes(
         &mut self,
         listed: Vec<(u64, [f64; 3])>,
-        lines: &Lines<'_>,
+        places: &impl Places,
     ) -> Result<(), Error> {
         if self.nodes.is_some() {
-            return Err(lines.error("a second section `$Nodes`"));
+            return Err(places.fault(None, "a second section `$Nodes`".to_owned()));
         }
-        self.nodes = Some(Nodes::new(listed, lines)?);
+        self.nodes = Some(Nodes::new(listed, places)?);
         Ok(())
     }
 
@@ -199,22 +174,126 @@ impl Contents {
     pub(super) fn keep_elements(
         &mut self,
         elements: Vec<Element>,
-        lines: &Lines<'_>,
+        places: &impl Places,
     ) -> Result<(), Error> {
         if self.elements.is_some() {
-            return Err(lines.error("a second section `$Elements`"));
+            return Err(places.fault(None, "a second section `$Elements`".to_owned()));
         }
         self.elements = Some(elements);
         Ok(())
     }
 
     /// Index of the node with this tag, which an element on the current line names.
-    pub(super) fn node(&self, tag: u64, lines: &Lines<'_>) -> Result<u32, Error> {
+    pub(super) fn node(&self, tag: u64, places: &impl Places) -> Result<u32, Error> {
         match &self.nodes {
-            None => Err(lines.error("`$Elements` comes before `$Nodes`")),
+            None => Err(places.fault(None, "`$Elements` comes before `$Nodes`".to_owned())),
             Some(nodes) => nodes
                 .index(tag)
-                .ok_or_else(|| lines.error(format!("node {tag} is not listed in `$Nodes`"))),
+                .ok_or_else(|| places.fault(None, format!("node {tag} is not listed in `$Nodes`"))),
         }
+    }
+}
+
+/// Elements and the sets they belong to, as formats list them that have neither entities nor numbers of
+/// groups.
+#[derive(Default)]
+pub(super) struct Gathered {
+    contents: Contents,
+    elements: Vec<Element>,
+    set_names: Vec<String>,
+    entities: HashMap<(u8, Vec<u32>), i32>,
+}
+
+impl Gathered {
+    /// The number of a set.
+    pub(super) fn set(&mut self, name: &str) -> u32 {
+        let known = self.set_names.iter().position(|known| known == name);
+        let number = known.unwrap_or_else(|| {
+            self.set_names.push(name.to_owned());
+            self.set_names.len() - 1
+        });
+        number as u32
+    }
+
+    /// Adds an element of these nodes, in Gmsh's order, to sets.
+    pub(super) fn push(&mut self, place: usize, shape: Shape, nodes: &[usize], sets: Vec<u32>) {
+        let dimension = shape.dimension();
+        let next = self.entities.len() as i32 + 1;
+        let key = (dimension, sets);
+        let entity = match self.entities.get(&key) {
+            Some(known) => *known,
+            None => {
+                for &set in &key.1 {
+                    let name = self.set_names[set as usize].clone();
+                    self.contents.names.insert((dimension, set), name);
+                }
+                let groups = key.1.clone();
+                let of_entity = &mut self.contents.groups_of_entity;
+                of_entity.insert((dimension, next), groups);
+                self.entities.insert(key, next);
+                next
+            }
+        };
+        let mut slots = [u32::MAX; MOST_NODES];
+        for (slot, &node) in slots.iter_mut().zip(nodes) {
+            *slot = node as u32;
+        }
+        self.elements.push(Element {
+            place,
+            shape,
+            entity,
+            count: nodes.len(),
+            slots,
+        });
+    }
+
+    /// All that a file says; single nodes that are on no cell are no part of a body.
+    pub(super) fn contents(
+        mut self,
+        positions: &[[f64; 3]],
+        places: &impl Places,
+    ) -> Result<Contents, Error> {
+        let mut on_cell = vec![false; positions.len()];
+        let all = self.elements.iter();
+        let dimension = all.map(|element| element.shape.dimension()).max();
+        let is_cell = |element: &&Element| Some(element.shape.dimension()) == dimension;
+        let cells = self.elements.iter().filter(is_cell);
+        cells.for_each(|cell| cell.nodes().for_each(|node| on_cell[node] = true));
+        let kept = |element: &Element| {
+            element.shape != Shape::Point || element.nodes().all(|node| on_cell[node])
+        };
+        self.elements.retain(kept);
+        let listed = (0..).zip(positions.iter().copied()).collect();
+        self.contents.nodes = Some(Nodes::new(listed, places)?);
+        self.contents.elements = Some(self.elements);
+        Ok(self.contents)
+    }
+}
+
+/// Places of a file whose elements have no lines of their own.
+pub(super) struct Listed<'a> {
+    /// Name of the file.
+    pub(super) file: &'a str,
+    /// Where the elements stand.
+    pub(super) line: usize,
+    /// What an element is called.
+    pub(super) what: &'static str,
+}
+
+impl Places for Listed<'_> {
+    fn fault(&self, place: Option<usize>, reason: String) -> Error {
+        let reason = match place {
+            Some(place) => format!("{}: {reason}", self.name_of(place)),
+            None => reason,
+        };
+        Error::Mesh {
+            file: self.file.to_owned(),
+            line: self.line,
+            reason,
+        }
+    }
+
+    fn name_of(&self, place: usize) -> String {
+        format!("{} {place}", self.what)
     }
 }
