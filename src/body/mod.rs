@@ -84,7 +84,7 @@ pub(crate) use recovery::stress_recovery;
 pub(crate) use rigid_modes::{RigidMode, free_modes};
 pub use spread::Wrench;
 pub(crate) use stiffness::stiffness;
-pub(crate) use stress::{cell_stress, nodal_stress, principal, von_mises};
+pub(crate) use stress::{cell_strain, cell_stress, nodal_stress, principal, von_mises};
 pub use structured::{box_mesh, graded, rectangle};
 pub(crate) use support::prescribed;
 pub(crate) use support::prescribed_by;

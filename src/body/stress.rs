@@ -28,6 +28,25 @@ pub(crate) fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
     stresses
 }
 
+/// Strain at the centre of each cell, in the order xx, yy, zz, yz, xz, xy, half of the angle for the
+/// last three; heat is part of it.
+#[must_use]
+pub(crate) fn cell_strain(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
+    let mut strains = Vec::with_capacity(body.mesh.cell_count());
+    for_each_cell(body, displacement, |_, gradient, _| {
+        let e = (gradient + gradient.transpose()) / 2.0;
+        strains.push([
+            e[(0, 0)],
+            e[(1, 1)],
+            e[(2, 2)],
+            e[(1, 2)],
+            e[(0, 2)],
+            e[(0, 1)],
+        ]);
+    });
+    strains
+}
+
 /// Shows every cell with the gradient `∂u_i/∂x_j` and the stress at its centre, in pascal.
 pub(super) fn for_each_cell(
     body: &Body,

@@ -30,6 +30,9 @@ pub(crate) struct Solve {
     /// them (`FILE.pvd`, `FILE_contact.pvd`). A name without an ending gets `.vtu`.
     #[arg(long, value_name = "FILE")]
     vtu: Option<PathBuf>,
+    /// Name the arrays of `--vtu` as Abaqus does: U, S, MISES, CPRESS, COPEN, CSLIP, CSTATUS and so on.
+    #[arg(long, requires = "vtu")]
+    abaqus_names: bool,
     /// Draw the deformed bodies and the contact pressure to this file, in SVG; bodies in 2D only.
     ///
     /// A scene with load steps gets the drawing of its last state.
@@ -250,6 +253,15 @@ impl<'a> States<'a> {
         Ok(states)
     }
 
+    fn write_vtu(&self, solution: &Solution, path: &Path) -> Result<(), dpana::Error> {
+        if !self.arguments.abaqus_names {
+            return solution.write_vtu(path);
+        }
+        let [bodies, contact] = solution.to_vtu()?;
+        replace_file(path, &vtu::abaqus_names(&bodies))?;
+        replace_file(&vtu::contact_path(path), &vtu::abaqus_names(&contact))
+    }
+
     /// Takes up a state; every file is whole after it.
     fn add(&mut self, solution: &Solution) -> Result<(), dpana::Error> {
         let (arguments, report) = (self.arguments, solution.report()?);
@@ -282,7 +294,7 @@ impl<'a> States<'a> {
         }
         if let (Some(path), Some(step)) = (&arguments.vtu, &report.step) {
             let of_step = vtu::step_path(path, step.number);
-            solution.write_vtu(&of_step)?;
+            self.write_vtu(solution, &of_step)?;
             self.files.push((step.at, of_step));
             replace_file(&path.with_extension("pvd"), &vtu::series(&self.files))?;
             let contacts = self.files.iter();
@@ -291,7 +303,7 @@ impl<'a> States<'a> {
             let of_contact = vtu::contact_path(path).with_extension("pvd");
             replace_file(&of_contact, &series)?;
         } else if let Some(path) = &arguments.vtu {
-            solution.write_vtu(path)?;
+            self.write_vtu(solution, path)?;
         }
         if let Some(path) = &arguments.svg {
             replace_file(path, &solution.to_svg()?)?;

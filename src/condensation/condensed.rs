@@ -31,6 +31,24 @@ pub struct Condensed {
     pub(super) work: CondensationWork,
 }
 
+/// A body with its stiffness and load, before it is condensed.
+pub(super) fn supported<'a>(
+    body: &'a Body,
+    prescribed: Vec<Option<f64>>,
+    interface: &Interface,
+) -> SupportedBody<'a> {
+    let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
+    SupportedBody {
+        name: &body.name,
+        nodes: &body.mesh.nodes,
+        dimension: body.mesh.dimension,
+        stiffness: body::stiffness(body),
+        load: body::load_vector(body),
+        grounding: Grounding::new(body, &prescribed, &nodes),
+        prescribed,
+    }
+}
+
 impl Condensed {
     /// Condenses bodies onto the surfaces where they may touch obstacles or each other.
     ///
@@ -83,16 +101,7 @@ impl Condensed {
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
             Stage::Assembly.begin();
             let interface = Interface::new(&surface, index, dimension, &prescribed);
-            let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
-            let supported = SupportedBody {
-                name: &body.name,
-                nodes: &body.mesh.nodes,
-                dimension,
-                stiffness: body::stiffness(body),
-                load: body::load_vector(body),
-                grounding: Grounding::new(body, &prescribed, &nodes),
-                prescribed,
-            };
+            let supported = supported(body, prescribed, &interface);
             let (body, of_interface) = supported.condense(&interface, &mut work)?;
             condensed.push(body);
             interfaces.push(interface);

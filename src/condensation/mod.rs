@@ -17,7 +17,7 @@
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `load_case`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
 //! | recovered body (C6), set right where the factor has few digits (C24) | `condensed_body`, `correction` |
-//! | room for what is dense | `room` |
+//! | room for what is dense, and what all will take | `room`, `estimate` |
 //! | the problem of a load step (C13) | `load_step` |
 
 mod border;
@@ -26,6 +26,7 @@ mod condensed;
 mod condensed_body;
 mod correction;
 mod elimination_tree;
+mod estimate;
 mod factor;
 mod grounding;
 mod interface;
@@ -44,6 +45,8 @@ mod work;
 
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
+pub use estimate::Estimate;
+pub(crate) use estimate::estimate;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
 pub(crate) use room::dense_bytes;
 pub(crate) use superposition::{Driven, Superposition};

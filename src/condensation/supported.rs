@@ -7,7 +7,7 @@ use sprs::CsMat;
 
 use super::CondensationWork;
 use super::condensed_body::{CondensedBody, FactoredBody};
-use super::factor::{Breakdown, Factor};
+use super::factor::{Breakdown, Factor, count};
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::local_axes::{Frames, InterfaceNode};
@@ -25,6 +25,17 @@ pub(super) struct SupportedBody<'a> {
     pub(super) load: Vec<f64>,
     pub(super) prescribed: Vec<Option<f64>>,
     pub(super) grounding: Grounding,
+}
+
+/// What the factor of a body will take.
+pub(super) struct Counted {
+    pub(super) unknowns: usize,
+    /// Those that the body is condensed onto.
+    pub(super) condensed: usize,
+    /// Stored entries.
+    pub(super) entries: usize,
+    /// Multiplications, each with an addition.
+    pub(super) operations: f64,
 }
 
 /// What a body is for its interface, as the factor gives it.
@@ -90,6 +101,24 @@ impl SupportedBody<'_> {
         work.substitutions += 1;
         work.condensation_seconds += start.elapsed().as_secs_f64();
         Ok((body, of_interface))
+    }
+
+    /// Orders, and counts what the factor will take.
+    pub(super) fn count(self, interface: &Interface) -> Result<Counted, Error> {
+        let nodes = interface.condensed_nodes();
+        let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
+        let (roles, contact) = self.roles(nodes);
+        let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
+            .ok_or_else(|| self.too_large("ordering"))?;
+        let grounded = self.grounding.ground(&self.stiffness);
+        let (entries, operations) = count(&grounded, &frames, &ordering, &interface.border)
+            .map_err(|breakdown| self.explain(breakdown))?;
+        Ok(Counted {
+            unknowns: ordering.unknowns(),
+            condensed: ordering.contact_unknowns + interface.border.len(),
+            entries,
+            operations,
+        })
     }
 
     /// The role of each degree of freedom in the frames, and the interface unknowns in order.

@@ -61,5 +61,5 @@ pub(crate) use ledger::{Account, ContactStep, Ledger};
 pub(crate) use resultant::Resultant;
 pub use scene::{Measure, PairFit, SceneGeometry, Surroundings};
 pub(crate) use sides::{global_force, relative_displacement};
-pub(crate) use support_forces::support_forces;
+pub(crate) use support_forces::{nodal_forces, support_forces};
 pub use surface_departure::surface_departure;

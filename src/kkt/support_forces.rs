@@ -3,6 +3,19 @@
 use super::body_state::BodyState;
 use crate::error::Error;
 
+/// Contact forces and support reactions s (K4) on a body, per unknown, in newton: what contacts of its own
+/// nodes and of surfaces that it stands opposite to give it, and what holds it.
+///
+/// # Errors
+///
+/// Those of [`balance`](super::balance()).
+pub(crate) fn nodal_forces(state: &BodyState<'_>) -> Result<[Vec<f64>; 2], Error> {
+    state.check()?;
+    let contact = state.contact_forces();
+    let held = state.held_reactions(&contact);
+    Ok([contact, held])
+}
+
 /// Sum of the support reactions s (K4) of every support of a body on it, in newton, in global axes.
 /// A displacement that several supports give is carried by the first of them.
 ///

@@ -3,7 +3,7 @@
 
 use crate::body;
 use crate::body::Support;
-use crate::condensation::{Driven, RigidBodies, dense_bytes};
+use crate::condensation::{Driven, Estimate, RigidBodies, dense_bytes, estimate};
 use crate::contact::ContactSurface;
 use crate::error::Error;
 use crate::scene::{LoadHistory, Mechanics, Scene};
@@ -19,6 +19,8 @@ pub struct Checked {
     pub free_modes: Vec<usize>,
     /// What the condensed problem takes of the memory, in bytes.
     pub dense_bytes: usize,
+    /// What the solve will take, by the pattern of the factors.
+    pub estimate: Estimate,
 }
 
 /// Reads a scene and its meshes and finds its contacts.
@@ -43,8 +45,9 @@ fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
     });
     Ok(Checked {
         free_modes: free_modes.collect::<Result<_, Error>>()?,
-        surface: rigid.into_surface(),
         dense_bytes,
+        estimate: estimate(bodies, rigid.surface())?,
+        surface: rigid.into_surface(),
         mechanics,
     })
 }

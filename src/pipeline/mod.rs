@@ -452,15 +452,37 @@ impl Solution {
     ///
     /// A file that cannot be written; what stood there before is then left as it was.
     pub fn write_vtu(&self, path: &Path) -> Result<(), Error> {
-        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        let [of_bodies, of_contact] = self.to_vtu()?;
+        replace_file(path, &of_bodies)?;
+        replace_file(&vtu::contact_path(path), &of_contact)
+    }
+
+    /// The bodies and their contact surface as VTU documents, with the arrays that
+    /// [`vtu`](crate::report::vtu) lists.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn to_vtu(&self) -> Result<[String; 2], Error> {
+        let (bodies, moved) = (&self.setup.bodies, &self.displacements);
+        let solved = || bodies.iter().zip(moved);
         let stresses = self.stresses();
-        let fields: Vec<_> = solved
-            .zip(&stresses)
-            .map(|((body, displacement), stress)| BodyFields {
+        let strains: Vec<_> = solved()
+            .map(|(body, u)| body::cell_strain(body, u))
+            .collect();
+        let states = self.setup.body_states(&self.outcome.reaction, moved);
+        let forces = states.iter().map(kkt::nodal_forces);
+        let forces: Vec<_> = forces.collect::<Result<_, _>>()?;
+        let fields: Vec<_> = solved()
+            .enumerate()
+            .map(|(at, (body, displacement))| BodyFields {
                 mesh: &body.mesh,
                 displacement,
-                nodal_stress: &stress.nodes,
-                cell_stress: &stress.cells,
+                nodal_stress: &stresses[at].nodes,
+                cell_stress: &stresses[at].cells,
+                cell_strain: &strains[at],
+                contact_force: &forces[at][0],
+                support_force: &forces[at][1],
             })
             .collect();
         let of_bodies = vtu::body_vtu(&fields)?;
@@ -471,7 +493,6 @@ impl Solution {
             facets,
             &self.displacements,
         )?;
-        replace_file(path, &of_bodies)?;
-        replace_file(&vtu::contact_path(path), &of_contact)
+        Ok([of_bodies, of_contact])
     }
 }

@@ -7,7 +7,7 @@ use crate::mesh_file::vtu::vtk_kind;
 
 /// Fields of a body; a field that is empty in all bodies is left out of the file.
 ///
-/// Stresses are `[xx, yy, zz, yz, xz, xy]`, in pascal.
+/// Stresses are `[xx, yy, zz, yz, xz, xy]`, in pascal, strains likewise.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyFields<'a> {
     /// Nodes and cells.
@@ -18,21 +18,39 @@ pub struct BodyFields<'a> {
     pub nodal_stress: &'a [[f64; 6]],
     /// Stress per cell.
     pub cell_stress: &'a [[f64; 6]],
+    /// Strain per cell.
+    pub cell_strain: &'a [[f64; 6]],
+    /// Force of the contacts on the body per unknown, in newton.
+    pub contact_force: &'a [f64],
+    /// Force of the supports on the body per unknown, in newton.
+    pub support_force: &'a [f64],
 }
 
-/// All bodies as one VTU document, one after the other: `displacement`, `stress`, `von_mises`,
-/// `principal_stress` (largest first) at points, the latter three also at cells, and at both `body`,
-/// which body it is, from 0.
+/// A field per unknown of a body.
+type OfUnknowns = for<'a> fn(&BodyFields<'a>) -> &'a [f64];
+
+/// Vectors at points.
+const VECTORS: [(&str, OfUnknowns); 3] = [
+    ("displacement", |body| body.displacement),
+    ("contact_force", |body| body.contact_force),
+    ("support_force", |body| body.support_force),
+];
+
+/// All bodies as one VTU document, one after the other, with the arrays of the table in [`vtu`](super).
 ///
 /// # Errors
 ///
 /// [`Error::Length`] for a field that is not of the mesh's length, unless it is empty in
 /// all bodies.
 pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
-    let moved = has_field(bodies, "displacement", |body| {
-        let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
-        (unknowns, body.displacement.len())
-    })?;
+    let mut vectors = Vec::new();
+    for (name, values) in VECTORS {
+        let found = has_field(bodies, name, |body| {
+            let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
+            (unknowns, values(body).len())
+        })?;
+        vectors.extend(found.then_some((name, values)));
+    }
     let stressed_nodes = has_field(bodies, "nodal_stress", |body| {
         (body.mesh.nodes.len(), body.nodal_stress.len())
     })?;
@@ -40,15 +58,19 @@ pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
         (body.mesh.cell_count(), body.cell_stress.len())
     })?;
 
+    let strained = has_field(bodies, "cell_strain", |body| {
+        (body.mesh.cell_count(), body.cell_strain.len())
+    })?;
+
     let (nodes, cells) = joined(bodies);
     let mut document = Document::new(nodes, &cells);
     document.section(Section::Points, |document| {
-        if moved {
+        for (name, values) in vectors {
             let vectors = bodies.iter().flat_map(|body| {
-                let of_nodes = body.displacement.chunks(body.mesh.dimension);
+                let of_nodes = values(body).chunks(body.mesh.dimension);
                 of_nodes.flat_map(padded)
             });
-            document.reals("displacement", 3, vectors);
+            document.reals(name, 3, vectors);
         }
         if stressed_nodes {
             stress(document, bodies, |body| body.nodal_stress);
@@ -58,6 +80,10 @@ pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
     document.section(Section::Cells, |document| {
         if stressed_cells {
             stress(document, bodies, |body| body.cell_stress);
+        }
+        if strained {
+            let all = bodies.iter().flat_map(|body| body.cell_strain);
+            document.reals("strain", 6, all.flat_map(reordered));
         }
         document.integers("body", indices(bodies, Mesh::cell_count));
     });
@@ -85,14 +111,18 @@ fn joined(bodies: &[BodyFields<'_>]) -> (usize, Cells) {
     (first, cells)
 }
 
+/// VTK's order of a tensor.
+fn reordered(&[xx, yy, zz, yz, xz, xy]: &[f64; 6]) -> [f64; 6] {
+    [xx, yy, zz, xy, yz, xz]
+}
+
 fn stress<'a>(
     document: &mut Document,
     bodies: &[BodyFields<'a>],
     tensors: fn(&BodyFields<'a>) -> &'a [[f64; 6]],
 ) {
     let all = || bodies.iter().flat_map(tensors).copied();
-    let reordered = all().flat_map(|[xx, yy, zz, yz, xz, xy]| [xx, yy, zz, xy, yz, xz]);
-    document.reals("stress", 6, reordered);
+    document.reals("stress", 6, all().flat_map(|tensor| reordered(&tensor)));
     document.reals("von_mises", 1, all().map(von_mises));
     document.reals("principal_stress", 3, all().flat_map(principal));
 }
@@ -107,7 +137,7 @@ fn indices(bodies: &[BodyFields<'_>], entries: fn(&Mesh) -> usize) -> impl Itera
 fn has_field<'a>(
     bodies: &[BodyFields<'a>],
     field: &str,
-    lengths: fn(&BodyFields<'a>) -> (usize, usize),
+    lengths: impl Fn(&BodyFields<'a>) -> (usize, usize),
 ) -> Result<bool, Error> {
     let present = bodies.iter().any(|body| lengths(body).1 > 0);
     for (index, body) in bodies.iter().enumerate().filter(|_| present) {
