@@ -1,8 +1,8 @@
-//! Bytes to the reader of Gmsh files, and a scene around every mesh that it accepts.
+//! Bytes to the readers of mesh files (Gmsh, VTU, Abaqus), and a scene around every mesh that they accept.
 #![no_main]
 
 use dpana::body::{Group, Mesh};
-use dpana::mesh_file::gmsh;
+use dpana::mesh_file;
 use dpana::scene::{
     MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
     SceneObstacle, SceneSupport, SceneSurface,
@@ -14,7 +14,13 @@ use libfuzzer_sys::fuzz_target;
 const NODES: usize = 400;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(mesh) = gmsh::parse(bytes, "part.msh") {
+    let name = match bytes {
+        [b'<', ..] => "part.vtu",
+        [b'*', ..] => "part.inp",
+        _ => "part.msh",
+    };
+    let include = |file: &str| Err(dpana::Error::Empty { place: file.to_owned() });
+    if let Ok(mesh) = mesh_file::parse(bytes, name, &include) {
         if mesh.nodes.len() <= NODES {
             let _ = attempt(scene(mesh, bytes.len()));
         }
