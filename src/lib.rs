@@ -24,6 +24,7 @@
 //! | cone programs | [`cone`] | the two half-steps, normal and friction |
 //! | limit analysis | [`limit`](mod@limit) | whether contact can hold the bodies at all |
 //! | outer loop | [`alternation`] | reactions, by sweeps and a Newton finish |
+//! | trust | [`trust`] | what a solved state is worth: other states, jumps, limits |
 //! | half-space | [`half_space`] | a contact per cell of a grid, by convolution, with loop and judge of its own |
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
@@ -67,6 +68,7 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "cli")]
 pub mod study;
+pub mod trust;
 pub mod validity;
 #[cfg(feature = "cli")]
 pub mod verify;
@@ -76,7 +78,7 @@ pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
     Acting, BodyStress, Checked, Measured, Solution, SolvedStep, Variation, cases, cases_watched,
-    check, limit, solve, solve_half_space, solve_steps,
+    check, limit, rigid_limit, solve, solve_half_space, solve_steps,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

@@ -18,13 +18,11 @@
 //! motion (R orthonormal in ρ), anchored where the proximal loop is. All is scaled to `t/√ρ` and `√ρ u`:
 //! no unit and no size of a contact is seen.
 
-use std::ops::Range;
-
 use faer::{Col, Mat};
 
 use super::condition::Factored;
 use super::iterate::{Iterate, Motion};
-use super::laws::{Law, Local, roots};
+use super::laws::{self, Law, Local, roots};
 use crate::problem::ContactProblem;
 use crate::problem::velocity_basis::VelocityBasis;
 
@@ -143,7 +141,7 @@ impl<'a> Finish<'a> {
         let laws: Vec<Law> = (0..self.problem.contacts())
             .filter_map(|contact| {
                 let local = self.local(contact, &from.reaction, seen, springs);
-                local.law(contact, self.block(contact))
+                local.law(contact, self.problem.block(contact))
             })
             .collect();
         let mut next = self.opened(from, &laws);
@@ -169,14 +167,8 @@ impl<'a> Finish<'a> {
 
     /// How far a point is from (D4) and (D5), as the root of an energy: sizes of the contacts do not weigh.
     pub(super) fn residual(&self, at: &Point, springs: Springs<'_>) -> f64 {
-        let mut residual = 0.0_f64;
-        for contact in 0..self.problem.contacts() {
-            let defect = self.local(contact, &at.reaction, &at.beyond, springs);
-            let count = self.block(contact).len();
-            residual = defect.defect()[..count]
-                .iter()
-                .fold(residual, |sum, r| sum.hypot(*r));
-        }
+        let local = |contact| self.local(contact, &at.reaction, &at.beyond, springs);
+        let residual = laws::residual(self.problem, local);
         let softer = (1.0 + springs.softness).sqrt();
         let rest = self.imbalance(at, springs.softness);
         rest.iter().fold(residual, |sum, e| sum.hypot(e / softer))
@@ -201,10 +193,6 @@ impl<'a> Finish<'a> {
         self.rigid.as_ref().map_or(0, |rigid| rigid.load.len())
     }
 
-    fn block(&self, contact: usize) -> Range<usize> {
-        self.problem.offsets()[contact]..self.problem.offsets()[contact + 1]
-    }
-
     /// A contact under springs.
     fn local(
         &self,
@@ -216,10 +204,10 @@ impl<'a> Finish<'a> {
         let mut local = Local {
             reaction: [0.0; 3],
             beyond: [0.0; 3],
-            friction: self.friction(contact),
+            friction: laws::friction(self.problem, &self.roots, contact),
             step: (1.0 + springs.softness).recip(),
         };
-        for (k, unknown) in self.block(contact).enumerate() {
+        for (k, unknown) in self.problem.block(contact).enumerate() {
             let (t, root) = (reaction[unknown], self.roots[unknown]);
             let spring = springs.softness * (t - springs.anchor[unknown]) / root;
             local.reaction[k] = t / root;
@@ -228,21 +216,13 @@ impl<'a> Finish<'a> {
         local
     }
 
-    /// μ between scaled reactions.
-    fn friction(&self, contact: usize) -> f64 {
-        match self.roots[self.block(contact)] {
-            [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
-            _ => 0.0,
-        }
-    }
-
     /// A point whose open contacts carry nothing.
     fn opened(&self, from: &Point, laws: &[Law]) -> Point {
         let mut next = from.clone();
         let mut pressed = laws.iter().map(|law| law.contact).peekable();
         for contact in 0..self.problem.contacts() {
             if pressed.next_if_eq(&contact).is_none() {
-                for unknown in self.block(contact) {
+                for unknown in self.problem.block(contact) {
                     self.push(&mut next, unknown, -from.reaction[unknown]);
                     next.reaction[unknown] = 0.0;
                 }
@@ -266,18 +246,19 @@ impl<'a> Finish<'a> {
         let mut matrix = Mat::zeros(reactions + motions, reactions + motions);
         for (j, &unknown) in unknowns.iter().enumerate() {
             let moved = self.problem.compliance().col_as_slice(unknown);
-            self.column(
-                laws,
-                Some((unknown, softness)),
-                moved,
-                matrix.col_as_slice_mut(j),
-            );
+            let scale = self.roots[unknown];
+            let moved = |k: usize| self.roots[k] * moved[k] * scale;
+            let rows = laws::rows(laws, moved, Some((unknown, softness)));
+            fill(matrix.col_as_slice_mut(j), rows);
         }
         if let Some(rigid) = &self.rigid {
             for k in 0..motions {
                 let velocity = rigid.velocities.col_as_slice(k);
                 let column = matrix.col_as_slice_mut(reactions + k);
-                self.column(laws, None, velocity, column);
+                fill(
+                    column,
+                    laws::rows(laws, |k| self.roots[k] * velocity[k], None),
+                );
                 column[reactions + k] = -softness;
                 for (j, &unknown) in unknowns.iter().enumerate() {
                     matrix[(reactions + k, j)] = velocity[unknown] * self.roots[unknown];
@@ -287,39 +268,18 @@ impl<'a> Finish<'a> {
         matrix
     }
 
-    /// Rows of all laws for something that moves the contacts: a reaction, with its spring, or a rigid motion.
-    fn column(&self, laws: &[Law], pushed: Option<(usize, f64)>, moved: &[f64], into: &mut [f64]) {
-        let (pushed, softness) = pushed.map_or((usize::MAX, 0.0), |pushed| pushed);
-        let scale = self.roots.get(pushed).copied().unwrap_or(1.0);
-        let mut rows = into.iter_mut();
-        for law in laws {
-            let mut local = [0.0; 3];
-            for (local, k) in local.iter_mut().zip(law.block.clone()) {
-                *local = self.roots[k] * moved[k] * scale;
-            }
-            let own = law.block.clone().position(|k| k == pushed);
-            if let Some(own) = own {
-                local[own] += softness;
-            }
-            for (entry, value) in rows
-                .by_ref()
-                .take(law.block.len())
-                .zip(law.rows(local, own))
-            {
-                *entry = value;
-            }
-        }
-    }
-
     /// Minus the residual of (D4) and (D5).
     fn right_side(&self, laws: &[Law], at: &Point, springs: Springs<'_>) -> Col<f64> {
-        let contacts = laws.iter().flat_map(|law| {
-            let local = self.local(law.contact, &at.reaction, &at.beyond, springs);
-            law.missing(&local).into_iter().take(law.block.len())
-        });
-        let rest = self.imbalance(at, springs.softness);
-        contacts.chain(rest.into_iter().map(|e| -e)).collect()
+        let local = |contact| self.local(contact, &at.reaction, &at.beyond, springs);
+        let rest = self.imbalance(at, springs.softness).into_iter();
+        laws::missing(laws, local).chain(rest.map(|e| -e)).collect()
     }
+}
+
+/// The first entries of a column.
+fn fill(column: &mut [f64], rows: impl Iterator<Item = f64>) {
+    let entries = column.iter_mut().zip(rows);
+    entries.for_each(|(entry, value)| *entry = value);
 }
 
 fn add(sum: &mut [f64], by: f64, column: &[f64]) {

@@ -119,6 +119,56 @@ impl Law {
     }
 }
 
+/// Rows of all laws for something that moves each unknown by `moved`, scaled, and that may be the own reaction of one,
+/// which moves it by so much more.
+pub(super) fn rows<'a>(
+    laws: &'a [Law],
+    moved: impl Fn(usize) -> f64 + 'a,
+    own: Option<(usize, f64)>,
+) -> impl Iterator<Item = f64> + 'a {
+    laws.iter().flat_map(move |law| {
+        let (mut local, mut place) = ([0.0; 3], None);
+        for (at, unknown) in law.block.clone().enumerate() {
+            local[at] = moved(unknown);
+            if let Some((_, more)) = own.filter(|(own, _)| *own == unknown) {
+                local[at] += more;
+                place = Some(at);
+            }
+        }
+        law.rows(local, place).into_iter().take(law.block.len())
+    })
+}
+
+/// Minus what a state leaves of all laws.
+pub(super) fn missing<'a>(
+    laws: &'a [Law],
+    local: impl Fn(usize) -> Local + 'a,
+) -> impl Iterator<Item = f64> + 'a {
+    laws.iter().flat_map(move |law| {
+        let missing = law.missing(&local(law.contact)).into_iter();
+        missing.take(law.block.len())
+    })
+}
+
+/// What the natural map leaves of all contacts, as the root of an energy.
+pub(super) fn residual(problem: &ContactProblem, local: impl Fn(usize) -> Local) -> f64 {
+    problem
+        .blocks()
+        .enumerate()
+        .fold(0.0, |sum, (contact, block)| {
+            let defect = local(contact).defect().into_iter();
+            defect.take(block.len()).fold(sum, f64::hypot)
+        })
+}
+
+/// μ of a contact between scaled reactions.
+pub(super) fn friction(problem: &ContactProblem, roots: &[f64], contact: usize) -> f64 {
+    match roots[problem.block(contact)] {
+        [normal, tangential, ..] => problem.friction()[contact] * normal / tangential,
+        _ => 0.0,
+    }
+}
+
 /// √ρ: the root of a contact's own stiffness along its normal, and over its tangents; a contact that its own reaction
 /// does not move takes the largest.
 pub(super) fn roots(problem: &ContactProblem) -> Vec<f64> {

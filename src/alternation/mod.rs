@@ -22,7 +22,6 @@
 
 mod anderson;
 mod condition;
-mod contraction;
 mod felt;
 mod finish;
 mod float;
@@ -36,18 +35,13 @@ mod prediction;
 mod proximal;
 mod run;
 mod settings;
-mod starts;
 
 pub use anderson::Anderson;
-pub(crate) use contraction::Contraction;
-pub use contraction::contraction;
+pub(crate) use condition::times;
 pub use gauss_seidel::GaussSeidel;
-pub(crate) use history::Failure;
-pub use history::{Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
-pub use path::continuity::{Earlier, WayBack, way_back};
+pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
+pub(crate) use path::plane::{End, PlanePath};
 pub use settings::{Interrupt, Settings};
-pub(crate) use starts::OtherStarts;
-pub use starts::other_starts;
 
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;

@@ -42,9 +42,10 @@ const STEPS_IN_ALL: usize = 600;
 const PRODUCTS: f64 = 1e12;
 
 /// What springs carry stands if it changes by less than this part, so many times on end; and nothing holds the
-/// bodies if they move farther then than so many times what any contact is away.
+/// bodies if they move farther then than so many times what any contact is away, or indents. Farther still, what
+/// rounding leaves of a motion along a contact would press it.
 const STANDS: (f64, usize) = (0.1, 3);
-const FAR: f64 = 100.0;
+const FAR: f64 = 1e4;
 
 impl Run<'_> {
     /// (D6) from the best state.
@@ -63,7 +64,6 @@ impl Run<'_> {
     fn proximal_loop(&mut self, finish: &mut Finish<'_>) {
         let (mut softness, most) = (SOFTNESS.0, self.work.newton_steps + STEPS_IN_ALL);
         let (mut products, mut stood) = (0.0, (0.0, 0));
-        let far = FAR * self.reach();
         // Newton steps that failed may have left a state far off.
         self.state = self.start.clone();
         while (LEAST..=SOFTNESS.1).contains(&softness) && products < PRODUCTS {
@@ -89,7 +89,7 @@ impl Run<'_> {
                 softness /= TENFOLD;
             }
             stood = self.stood(stood);
-            if last || (stood.1 >= STANDS.1 && self.give_way(&before, far)) {
+            if last || (stood.1 >= STANDS.1 && self.give_way(&before, FAR * self.reach())) {
                 break;
             }
         }
@@ -104,14 +104,18 @@ impl Run<'_> {
         (left, if stands { times + 1 } else { 0 })
     }
 
-    /// Largest gap or slip, in metre.
+    /// Largest gap, indentation or slip that no motion of whole bodies makes, in metre.
     fn reach(&self) -> f64 {
-        let mut reach = 0.0_f64;
-        for ends in self.problem.offsets().windows(2) {
-            let beyond = &self.start.verdict.beyond[ends[0]..ends[1]];
-            reach = beyond.iter().fold(reach, |reach, u| reach.max(u.abs()));
+        let mut beyond = self.problem.displacement(&self.state.reaction);
+        for (&n, gap) in self
+            .problem
+            .normals()
+            .iter()
+            .zip(self.problem.initial_gap())
+        {
+            beyond[n] -= gap;
         }
-        reach
+        beyond.iter().fold(0.0, |reach, u| reach.max(u.abs()))
     }
 }
 

@@ -15,7 +15,7 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use crate::alternation::{Earlier, Outcome, Settings, Status};
+use crate::alternation::{Outcome, Settings, Status};
 use crate::body::{Body, Extremes};
 use crate::condensation::{Condensed, Driven};
 use crate::contact::{ContactPair, Opposite};
@@ -28,13 +28,13 @@ use crate::report::{
     Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
-use crate::{alternation, body, kkt, validity};
+use crate::{body, kkt, trust, validity};
 
 pub use cases::{Variation, cases, cases_watched};
 pub use check::{Checked, check};
 pub use half_space::solve_half_space;
 pub(crate) use halving::Halving;
-pub use limit::limit;
+pub use limit::{limit, rigid_limit};
 pub use measured::{Acting, Measured};
 pub use steps::{SolvedStep, solve_steps};
 
@@ -360,8 +360,8 @@ impl Solution {
         };
         let problem = self.setup.condensed.problem();
         let settings = &self.setup.settings;
-        let others = alternation::other_starts(problem, settings, &self.outcome, starts)?;
-        let contraction = alternation::contraction(problem, &self.outcome);
+        let others = trust::other_starts(problem, settings, &self.outcome, starts)?;
+        let contraction = trust::contraction(problem, &self.outcome);
         let normals = problem.normals();
         Ok(Some(Trust::new(contraction, continuity, &others, normals)))
     }
@@ -378,10 +378,10 @@ impl Solution {
         }
         let problem = self.setup.condensed.problem();
         let start = match &self.step {
-            None => &Earlier::rest(problem),
+            None => &trust::Earlier::rest(problem),
             Some(step) => step.start(),
         };
-        let way_back = alternation::way_back(problem, &self.setup.settings, &self.outcome, start)?;
+        let way_back = trust::way_back(problem, &self.setup.settings, &self.outcome, start)?;
         Ok(Some(way_back.into()))
     }
 

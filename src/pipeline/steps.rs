@@ -3,10 +3,11 @@
 use super::halving::Halving;
 use super::substep::{Course, State};
 use super::{Setup, Solution};
-use crate::alternation::{Earlier, Status};
+use crate::alternation::Status;
 use crate::error::{Error, check_length};
 use crate::kkt::Ledger;
 use crate::scene::{Exact, Fingerprint, LoadHistory, SavedState, Scene, exact, plain};
+use crate::trust::Earlier;
 use crate::{alternation, report};
 
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
@@ -274,6 +275,11 @@ impl SolvedStep {
     /// Where it was solved from; the last of its parts, where it was halved.
     pub(super) fn start(&self) -> &Earlier {
         &self.start
+    }
+
+    /// Since the start of the history, in metre per contact unknown.
+    pub(super) fn slip(&self) -> &[f64] {
+        self.state.slip()
     }
 
     fn past(&self) -> Past {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Setup;
 use crate::alternation;
-use crate::alternation::{Earlier, Outcome, Status};
+use crate::alternation::{Outcome, Status};
 use crate::body::Body;
 use crate::condensation::Superposition;
 use crate::contact::ContactSurface;
@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
 use crate::problem::ContactProblem;
 use crate::scene::LoadHistory;
+use crate::trust::Earlier;
 
 /// Bodies on their way through a load history.
 pub(super) struct Course<'a> {

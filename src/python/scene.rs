@@ -108,10 +108,14 @@ impl StatedScene {
         parsed(py, &table.map_err(refused)?.to_json())
     }
 
-    /// By what factor each load can grow, and how much friction the loads take.
+    /// By what factor each load can grow, on rigid bodies (an upper bound) and on the elastic ones, and how much friction the loads take.
     fn limit<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let limits = py.detach(|| dpana::limit(&self.0)).map_err(refused)?;
-        parsed(py, &limits.to_json())
+        let limits = watched(py, &Flag::take(), |interrupt| {
+            let mut scene = self.0.clone();
+            scene.settings.interrupt = Some(interrupt);
+            dpana::limit(&scene)
+        })?;
+        parsed(py, &limits.map_err(refused)?.to_json())
     }
 
     /// The condensed problem, without solving it.

@@ -74,7 +74,7 @@ pub use fit::{ReportedMeasure, ReportedPairFit};
 pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy};
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
-pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
+pub use limit::{Beyond, Limits, LoadLimit, ReportedElasticLimit, ReportedLeastFriction};
 pub use motion::ReportedMotion;
 pub(crate) use motion::{motions, significant};
 #[cfg(feature = "cli")]

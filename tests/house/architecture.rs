@@ -8,7 +8,7 @@ use crate::rust_words::{tokens, without_tests};
 
 /// A module and what it may import of ours; `main` with its `commands` and `python`, a package of its
 /// own, are users of the public API.
-const MAY_IMPORT: [(&str, &[&str]); 22] = [
+const MAY_IMPORT: [(&str, &[&str]); 23] = [
     ("error", &[]),
     ("closed_forms", &["error"]),
     ("body", &["error"]),
@@ -24,6 +24,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
         &["body", "contact", "problem", "condensation", "error"],
     ),
     ("alternation", &["problem", "cone", "limit", "kkt", "error"]),
+    ("trust", &["problem", "alternation", "kkt", "error"]),
     (
         "report",
         &[
@@ -34,6 +35,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "alternation",
             "half_space",
             "kkt",
+            "trust",
             "error",
         ],
     ),
@@ -64,6 +66,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "limit",
             "alternation",
             "kkt",
+            "trust",
             "report",
             "scene",
             "half_space",

@@ -11,6 +11,7 @@ mod apart;
 mod balance;
 mod covered;
 mod covered_in_space;
+mod elastic_limits;
 mod fits;
 mod floating;
 mod goodman_coupled;

@@ -20,7 +20,7 @@
 use faer::{Col, Mat};
 
 use crate::alternation::condition::{Factored, times};
-use crate::alternation::laws::{Law, Local, roots};
+use crate::alternation::laws::{self, Law, Local, roots};
 use crate::alternation::settings::Clock;
 use crate::problem::ContactProblem;
 
@@ -242,18 +242,8 @@ impl<'a> JoinedPath<'a> {
             }
         }
         let (joined, beyond) = (self.joined(&at), self.beyond(&at));
-        let missing = laws.iter().flat_map(|law| {
-            let local = self.local(law.contact, &at, &beyond);
-            law.missing(&local).into_iter().take(law.block.len())
-        });
-        let rate = laws.iter().flat_map(|law| {
-            let mut moved = [0.0; 3];
-            for (moved, k) in moved.iter_mut().zip(law.block.clone()) {
-                *moved = joined[k] - at.reaction[k];
-            }
-            law.rows(moved, None).into_iter().take(law.block.len())
-        });
-        let (missing, rate) = (missing.collect(), rate.collect());
+        let missing = laws::missing(&laws, |contact| self.local(contact, &at, &beyond)).collect();
+        let rate = laws::rows(&laws, |k| joined[k] - at.reaction[k], None).collect();
         let matrix = Factored::new(&self.matrix(&laws, &unknowns, at.part));
         self.products += matrix.products() + 2.0 * (self.roots.len() as f64).powi(2);
         Piece {
@@ -270,21 +260,10 @@ impl<'a> JoinedPath<'a> {
         let mut matrix = Mat::zeros(unknowns.len(), unknowns.len());
         for (j, &unknown) in unknowns.iter().enumerate() {
             let moved = self.problem.compliance().col_as_slice(unknown);
-            let mut rows = matrix.col_as_slice_mut(j).iter_mut();
-            for law in laws {
-                let mut local = [0.0; 3];
-                for (local, k) in local.iter_mut().zip(law.block.clone()) {
-                    *local = part * self.roots[k] * moved[k] * self.roots[unknown];
-                }
-                let own = law.block.clone().position(|k| k == unknown);
-                if let Some(own) = own {
-                    local[own] += 1.0 - part;
-                }
-                let entries = law.rows(local, own).into_iter().take(law.block.len());
-                rows.by_ref()
-                    .zip(entries)
-                    .for_each(|(entry, value)| *entry = value);
-            }
+            let moved = |k: usize| part * self.roots[k] * moved[k] * self.roots[unknown];
+            let rows = laws::rows(laws, moved, Some((unknown, 1.0 - part)));
+            let entries = matrix.col_as_slice_mut(j).iter_mut().zip(rows);
+            entries.for_each(|(entry, value)| *entry = value);
         }
         matrix
     }
@@ -322,10 +301,7 @@ impl<'a> JoinedPath<'a> {
         let mut local = Local {
             reaction: [0.0; 3],
             beyond: [0.0; 3],
-            friction: match self.roots[block.clone()] {
-                [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
-                _ => 0.0,
-            },
+            friction: laws::friction(self.problem, &self.roots, contact),
             step: 1.0,
         };
         for (k, unknown) in block.enumerate() {
@@ -337,11 +313,7 @@ impl<'a> JoinedPath<'a> {
     /// Size of F.
     fn residual(&self, at: &Place) -> f64 {
         let beyond = self.beyond(at);
-        (0..self.problem.contacts()).fold(0.0, |sum: f64, contact| {
-            let defect = self.local(contact, at, &beyond).defect();
-            let entries = self.problem.block(contact).zip(defect);
-            entries.fold(sum, |sum, (_, r)| sum.hypot(r))
-        })
+        laws::residual(self.problem, |contact| self.local(contact, at, &beyond))
     }
 
     /// From here along a direction.

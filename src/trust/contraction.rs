@@ -1,7 +1,7 @@
 //! What the alternation does to a small disturbance of a solved state, and from which friction on it grows.
 //!
 //! ```text
-//! (D8)  δt_N → friction half-step → δt_T → normal half-step → δt_N'     on the sets of the state
+//! (T1)  δt_N → friction half-step → δt_T → normal half-step → δt_N'     on the sets of the state
 //!
 //!       slip   δt_T = −μ d δt_N + τ e,  e·δu_T + (‖u_T‖ / −μ t_N) τ = 0      d = t_T/‖t_T‖,  e ⊥ d (3D)
 //!       stick  δu_T = 0
@@ -15,8 +15,7 @@
 use faer::linalg::solvers::{Llt, Solve};
 use faer::{Col, Mat, Side};
 
-use super::Outcome;
-use super::condition::times;
+use crate::alternation::{Outcome, times};
 use crate::kkt::ContactStatus;
 use crate::problem::ContactProblem;
 
@@ -38,7 +37,7 @@ pub struct Contraction {
     pub critical: Option<f64>,
 }
 
-/// Estimates (D8) at a solved state; none where nothing is pressed and rough, or where G does not tell the
+/// Estimates (T1) at a solved state; none where nothing is pressed and rough, or where G does not tell the
 /// contacts apart, or between bodies that float, which have no alternation.
 #[must_use]
 pub fn contraction(problem: &ContactProblem, outcome: &Outcome) -> Option<Contraction> {
@@ -74,7 +73,7 @@ struct Direction {
     extra: f64,
 }
 
-/// The maps of (D8).
+/// The maps of (T1).
 struct Disturbance<'a> {
     problem: &'a ContactProblem,
     /// Normal unknowns of pressed contacts.

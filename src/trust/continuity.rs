@@ -1,7 +1,7 @@
 //! Whether a state can be reached from an earlier one without a jump.
 //!
 //! ```text
-//! (D11)  û(λ) = û₀ + λ (û − û₀),   e(λ) = e₀ + λ (e − e₀),    λ: 1 → 0
+//! (T2)  û(λ) = û₀ + λ (û − û₀),   e(λ) = e₀ + λ (e − e₀),    λ: 1 → 0
 //! ```
 //!
 //! Where friction couples strongly a small step of the load can leave no state near the last one: bodies
@@ -9,8 +9,8 @@
 //! while all that acts goes back in proportion: in the plane exactly, along (D10); in space, and between
 //! bodies that float, by Newton steps in as small parts as they need.
 
-use super::plane::{End, PlanePath};
-use crate::alternation::{Outcome, Settings, Status, solve_near};
+use super::proportion::Proportion;
+use crate::alternation::{End, Outcome, PlanePath, Settings, Status, solve_near};
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;
 
@@ -83,7 +83,7 @@ impl Earlier {
     }
 }
 
-/// Follows a certified state of a problem back to an earlier state (D11).
+/// Follows a certified state of a problem back to an earlier state (T2).
 ///
 /// # Errors
 ///
@@ -96,18 +96,15 @@ pub fn way_back(
 ) -> Result<WayBack, Error> {
     earlier.check(problem)?;
     let way = Way::new(problem, earlier);
-    let start = way.problem(0.0)?;
-    let drive = way.free[1]
-        .iter()
-        .zip(&way.free[0])
-        .map(|(end, start)| end - start);
-    let drive: Vec<f64> = drive.collect();
+    let start = way.line.at(0.0)?;
+    let [from, to] = &way.line.free;
+    let drive: Vec<f64> = to.iter().zip(from).map(|(to, from)| to - from).collect();
     let Some(mut path) = PlanePath::back(&start, outcome, &drive) else {
         return way.back(settings, outcome);
     };
     Ok(match path.follow(BEGINNING, false) {
         End::Reached(reaction) => {
-            let displacement = way.problem(BEGINNING)?.displacement(&reaction);
+            let displacement = way.line.at(BEGINNING)?.displacement(&reaction);
             way.arrival(&displacement, SAME)
         }
         End::Turned(part) => WayBack::Turns(part),
@@ -115,14 +112,10 @@ pub fn way_back(
     })
 }
 
-/// The problems of (D11).
+/// The way from an earlier state.
 struct Way<'a> {
-    problem: &'a ContactProblem,
     earlier: &'a Earlier,
-    /// û at both ends, in metre per unknown.
-    free: [Vec<f64>; 2],
-    /// e at both ends, in newton per free mode.
-    load: [Vec<f64>; 2],
+    line: Proportion<'a>,
 }
 
 impl<'a> Way<'a> {
@@ -147,26 +140,8 @@ impl<'a> Way<'a> {
             load = [carried.collect(), floating.load().to_vec()];
         }
         Self {
-            problem,
             earlier,
-            free: [start, end],
-            load,
-        }
-    }
-
-    /// The problem at a part of the way.
-    fn problem(&self, part: f64) -> Result<ContactProblem, Error> {
-        let between = |[start, end]: &[Vec<f64>; 2]| -> Vec<f64> {
-            let ends = start.iter().zip(end);
-            ends.map(|(start, end)| start + part * (end - start))
-                .collect()
-        };
-        let problem = self
-            .problem
-            .step(between(&self.free), vec![0.0; self.problem.unknowns()])?;
-        match self.problem.floating() {
-            None => Ok(problem),
-            Some(floating) => problem.float(floating.under(between(&self.load))?),
+            line: Proportion::new(problem, [start, end], load),
         }
     }
 
@@ -181,7 +156,7 @@ impl<'a> Way<'a> {
         let (mut near, mut at, mut stride) = (outcome.clone(), 1.0, PART.0);
         while at > 0.0 && stride >= PART.1 {
             let next = f64::max(at - stride, 0.0);
-            let found = solve_near(&self.problem(next)?, &settings, &near)?;
+            let found = solve_near(&self.line.at(next)?, &settings, &near)?;
             let apart = distance(&found.verdict.displacement, &near.verdict.displacement);
             let followed = found.status == Status::Certified
                 && found.work.sweeps == 0
@@ -213,7 +188,7 @@ impl<'a> Way<'a> {
 
     /// Largest change of û, in metre: contacts that stick do not move by themselves.
     fn driven(&self) -> f64 {
-        distance(&self.free[0], &self.free[1])
+        distance(&self.line.free[0], &self.line.free[1])
     }
 }
 

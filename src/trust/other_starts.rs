@@ -5,8 +5,7 @@
 
 use faer::Col;
 
-use super::condition::times;
-use super::{Outcome, Settings, Status, solve_from};
+use crate::alternation::{Outcome, Settings, Status, solve_from, times};
 use crate::error::Error;
 use crate::problem::ContactProblem;
 
