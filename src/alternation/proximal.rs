@@ -3,12 +3,15 @@
 //! ```text
 //! (D6)   t_k, α_k ← best state;  σ ← 1e-6
 //!        from t_k, α_k Newton steps (D4) under springs of softness σ that are anchored there (D5)
-//!        their residual fell to a tenth:   accept;  after few steps: σ ← σ/10
-//!        else:                             throw away, σ ← 10 σ
+//!        their residual fell to a tenth:   accept;  after few steps: σ ← σ/10, or σ/3 once one was thrown away
+//!        else:                             throw away, σ ← 1000 σ
 //! ```
 //!
 //! Every subproblem is well posed: springs tell contacts apart that stand twice, and hold bodies that contact
 //! does not yet hold. At the end they are as good as gone, and where they are anchored no longer matters.
+//!
+//! A subproblem that is thrown away costs a dozen steps, one that is accepted one or two: a σ that does is found in few
+//! strides, and lowered with care.
 //!
 //! Where nothing holds elastic bodies the springs do to the last: what they carry stays while they soften tenfold
 //! again and again, and the bodies move tenfold each time.
@@ -25,8 +28,11 @@ const SOFTNESS: (f64, f64) = (1e-6, 1e6);
 /// Springs that are as good as none.
 const LEAST: f64 = 1e-18;
 
-/// Change of the softness.
-const TENFOLD: f64 = 10.0;
+/// σ falls by the first; once a subproblem was thrown away by the second, down to the third.
+const FALLS: (f64, f64, f64) = (10.0, 3.0, 1e-3);
+
+/// It rises by this.
+const RISES: f64 = 1e3;
 
 /// Newton steps on a subproblem at most, and how few let the springs soften.
 const STEPS: (usize, usize) = (12, 5);
@@ -63,7 +69,7 @@ impl Run<'_> {
 
     fn proximal_loop(&mut self, finish: &mut Finish<'_>) {
         let (mut softness, most) = (SOFTNESS.0, self.work.newton_steps + STEPS_IN_ALL);
-        let (mut products, mut stood) = (0.0, (0.0, 0));
+        let (mut products, mut stood, mut careful) = (0.0, (0.0, 0), false);
         // Newton steps that failed may have left a state far off.
         self.state = self.start.clone();
         while (LEAST..=SOFTNESS.1).contains(&softness) && products < PRODUCTS {
@@ -78,7 +84,8 @@ impl Run<'_> {
                 break;
             }
             let Some(point) = settled else {
-                softness *= TENFOLD;
+                softness *= RISES;
+                careful = true;
                 continue;
             };
             let before = self.state.motion.clone();
@@ -86,7 +93,10 @@ impl Run<'_> {
             self.state.reaction = point.reaction;
             self.judge();
             if steps <= STEPS.1 {
-                softness /= TENFOLD;
+                softness /= match careful && softness > FALLS.2 {
+                    true => FALLS.1,
+                    false => FALLS.0,
+                };
             }
             stood = self.stood(stood);
             if last || (stood.1 >= STANDS.1 && self.give_way(&before, FAR * self.reach())) {
