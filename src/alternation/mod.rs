@@ -117,10 +117,7 @@ pub fn solve_near(
     check_length("displacement", problem.unknowns(), displacement.len())?;
     check_finite("displacement", displacement)?;
     check_length("motion", problem.free_modes(), near.motion.len())?;
-    let mut beyond = displacement.clone();
-    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
-        beyond[n] -= gap;
-    }
+    let beyond = problem.beyond(displacement.clone());
     on_felt_motions(problem, |problem, felt| {
         let state = (&near.reaction[..], &felt(&near.motion)[..]);
         Ok(run(begun(problem, settings, state, Some(&beyond))?))

@@ -116,15 +116,8 @@ impl Run<'_> {
 
     /// Largest gap, indentation or slip that no motion of whole bodies makes, in metre.
     fn reach(&self) -> f64 {
-        let mut beyond = self.problem.displacement(&self.state.reaction);
-        for (&n, gap) in self
-            .problem
-            .normals()
-            .iter()
-            .zip(self.problem.initial_gap())
-        {
-            beyond[n] -= gap;
-        }
+        let displacement = self.problem.displacement(&self.state.reaction);
+        let beyond = self.problem.beyond(displacement);
         beyond.iter().fold(0.0, |reach, u| reach.max(u.abs()))
     }
 }

@@ -275,6 +275,14 @@ impl ContactProblem {
         self.initial_gap[contact] - displacement[self.offsets[contact]]
     }
 
+    /// A displacement per unknown beyond the gaps, `u_N − g₀` and `u_T`, in metre.
+    pub(crate) fn beyond(&self, mut displacement: Vec<f64>) -> Vec<f64> {
+        for (&n, gap) in self.normals().iter().zip(&self.initial_gap) {
+            displacement[n] -= gap;
+        }
+        displacement
+    }
+
     /// Coefficient of friction per contact.
     #[must_use]
     pub fn friction(&self) -> &[f64] {

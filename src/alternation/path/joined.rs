@@ -279,16 +279,8 @@ impl<'a> JoinedPath<'a> {
     /// Displacement beyond the gaps, scaled.
     fn beyond(&self, at: &Place) -> Vec<f64> {
         let joined = self.joined(at);
-        let free = self.problem.free_displacement();
-        let mut beyond = free.to_vec();
-        for (&n, gap) in self
-            .problem
-            .normals()
-            .iter()
-            .zip(self.problem.initial_gap())
-        {
-            beyond[n] -= gap;
-        }
+        let free = self.problem.free_displacement().to_vec();
+        let mut beyond = self.problem.beyond(free);
         for (k, w) in beyond.iter_mut().enumerate() {
             let moved = (1.0 - at.part) * at.reaction[k] + at.part * joined[k];
             *w = self.roots[k] * *w + moved;
