@@ -76,7 +76,7 @@ pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
     Acting, BodyStress, Checked, Measured, Solution, SolvedStep, Variation, cases, cases_watched,
-    check, limit, solve, solve_half_space, solve_steps,
+    check, half_space_cases, limit, solve, solve_half_space, solve_steps,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

@@ -9,7 +9,9 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use commands::{Cases, Check, Completions, HalfSpace, Import, Limit, Man, Solve, Study, Verify};
+use commands::{
+    Cases, Check, Completions, HalfSpace, Import, Limit, Man, Schema, Solve, Study, Verify,
+};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -51,7 +53,7 @@ enum Command {
     /// Turn an Abaqus or CalculiX deck into a scene and Gmsh meshes.
     Import(Import),
     /// Print the JSON Schema of scenes.
-    Schema,
+    Schema(Schema),
     /// Compute scenes whose answers are known, and say by how much they miss them.
     Verify(Verify),
     /// Print the script that lets a shell complete commands and options.
@@ -92,7 +94,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
         Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
         Command::Import(arguments) => commands::import(&arguments),
-        Command::Schema => commands::schema(),
+        Command::Schema(arguments) => commands::schema(&arguments),
         Command::Verify(arguments) => commands::verify(&arguments),
         Command::Completions(arguments) => {
             commands::completions(&arguments, CommandLine::command())

@@ -23,7 +23,7 @@ pub(crate) use half_space::{HalfSpace, half_space};
 pub(crate) use import::{Import, import};
 pub(crate) use limit::{Limit, limit};
 pub(crate) use man::{Man, man};
-pub(crate) use schema::schema;
+pub(crate) use schema::{Schema, schema};
 pub(crate) use solve::{Solve, solve};
 pub(crate) use study::{Study, study};
 pub(crate) use verify::{Verify, verify};

@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use dpana::deck::Deck;
-use dpana::scene::Scene;
+use dpana::scene::{HalfSpaceScene, Scene};
 
 use super::outputs::is_standard;
 
@@ -26,6 +26,21 @@ pub(super) fn read_scene(path: &Path) -> Result<Scene, Box<dyn Error>> {
     Ok(match is_deck(path) {
         true => tell(Deck::from_file(path)?).scene,
         false => Scene::from_file(path)?,
+    })
+}
+
+/// Reads a scene of half-spaces from a file, if it is one: an object with a `half_space`.
+pub(super) fn half_space_scene(path: &Path) -> Result<Option<HalfSpaceScene>, Box<dyn Error>> {
+    // What cannot be read is told by who reads it as a scene of bodies; a pipe would hold the program.
+    let regular = std::fs::metadata(path).is_ok_and(|found| found.is_file());
+    if !regular || is_deck(path) {
+        return Ok(None);
+    }
+    let text = std::fs::read(path).unwrap_or_default();
+    let value: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
+    Ok(match value.get("half_space") {
+        Some(_) => Some(HalfSpaceScene::from_file(path)?),
+        None => None,
     })
 }
 

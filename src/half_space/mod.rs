@@ -14,6 +14,8 @@
 //! (S12) random surfaces                          `rough`
 //! (S13) all laws at once                         `finish`: Newton's method with GMRES
 //! (S14) rolling                                  `rolling`
+//! (S15) power spectrum                           `spectrum`
+//! (S16) stiffness                                `stiffness`
 //! ```
 //!
 //! The half-space fills `z < 0`; n = z points to the other side, a rigid body or a second half-space
@@ -65,6 +67,8 @@ mod rectangle;
 mod rolling;
 mod rough;
 mod run;
+mod spectrum;
+mod stiffness;
 mod sweep;
 mod symbol;
 mod transform;
@@ -80,3 +84,4 @@ pub use outcome::{
 pub use problem::{Drag, HalfSpaceProblem, Press};
 pub use rolling::Creepage;
 pub use rough::SelfAffine;
+pub use spectrum::{SpectrumRing, power_spectrum};

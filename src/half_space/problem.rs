@@ -55,15 +55,9 @@ impl HalfSpaceProblem {
         let cells = operator.grid().len();
         check_length("initial_gap", cells, initial_gap.len())?;
         check_finite("initial_gap", &initial_gap)?;
-        check_friction(friction)?;
-        let friction = match friction {
-            [all] => vec![*all; cells],
-            each => each.to_vec(),
-        };
-        check_length("friction", cells, friction.len())?;
         check_press(press, operator.surroundings())?;
         Ok(Self {
-            friction,
+            friction: friction_per_cell(friction, cells)?,
             initial_gap,
             press,
             drag: Drag::Shift([0.0; 2]),
@@ -94,6 +88,16 @@ impl HalfSpaceProblem {
     pub fn pressed(mut self, press: Press) -> Result<Self, Error> {
         check_press(press, self.operator.surroundings())?;
         self.press = press;
+        Ok(self)
+    }
+
+    /// The same problem with other coefficients of friction, one per cell or one for all.
+    ///
+    /// # Errors
+    ///
+    /// As [`HalfSpaceProblem::new`].
+    pub fn with_friction(mut self, friction: &[f64]) -> Result<Self, Error> {
+        self.friction = friction_per_cell(friction, self.friction.len())?;
         Ok(self)
     }
 
@@ -162,16 +166,21 @@ impl HalfSpaceProblem {
     }
 }
 
-fn check_friction(friction: &[f64]) -> Result<(), Error> {
+fn friction_per_cell(friction: &[f64], cells: usize) -> Result<Vec<f64>, Error> {
     check_finite("friction", friction)?;
-    match friction.iter().position(|&mu| mu < 0.0) {
-        None => Ok(()),
-        Some(at) => Err(Error::OutOfRange {
+    if let Some(at) = friction.iter().position(|&mu| mu < 0.0) {
+        return Err(Error::OutOfRange {
             place: format!("friction[{at}]"),
             value: friction[at],
             accepted: "friction >= 0",
-        }),
+        });
     }
+    let friction = match friction {
+        [all] => vec![*all; cells],
+        each => each.to_vec(),
+    };
+    check_length("friction", cells, friction.len())?;
+    Ok(friction)
 }
 
 fn check_press(press: Press, surroundings: Surroundings) -> Result<(), Error> {

@@ -138,7 +138,7 @@ pub fn cases_watched(
 }
 
 /// All combinations of values, the last varying fastest; one without values if nothing varies.
-fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
+pub(super) fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
     let mut cases = vec![Vec::new()];
     for variation in variations {
         let longer = cases.iter().flat_map(|case: &Vec<f64>| {
@@ -169,9 +169,9 @@ impl Drive {
 }
 
 /// Everything that can vary, by name.
-struct Quantities(Vec<(String, Drive)>);
+pub(super) struct Quantities<D>(pub(super) Vec<(String, D)>);
 
-impl Quantities {
+impl Quantities<Drive> {
     fn new(bodies: &[Body], pairs: &[ContactPair]) -> Self {
         let all: Vec<usize> = (0..pairs.len()).collect();
         let mut known = vec![
@@ -196,8 +196,10 @@ impl Quantities {
         }
         Self(known)
     }
+}
 
-    fn find_all(&self, variations: &[Variation]) -> Result<Vec<Drive>, Error> {
+impl<D: Clone> Quantities<D> {
+    pub(super) fn find_all(&self, variations: &[Variation]) -> Result<Vec<D>, Error> {
         for (number, Variation { name, .. }) in variations.iter().enumerate() {
             if variations[..number].iter().any(|other| other.name == *name) {
                 return Err(Error::NotAccepted {
@@ -216,7 +218,7 @@ impl Quantities {
         nearest(name, known).map(str::to_owned)
     }
 
-    fn find(&self, variation: &Variation) -> Result<Drive, Error> {
+    fn find(&self, variation: &Variation) -> Result<D, Error> {
         let name = &variation.name;
         let Some((_, drive)) = self.0.iter().find(|(known, _)| known == name) else {
             return Err(Error::UnknownName {
@@ -234,13 +236,13 @@ impl Quantities {
         }
         check_finite(name, &variation.values)?;
         let negative = variation.values.iter().copied().find(|value| *value < 0.0);
-        match (drive, negative) {
-            (Drive::Friction(_), Some(value)) => Err(Error::OutOfRange {
+        match negative.filter(|_| name.ends_with("friction")) {
+            Some(value) => Err(Error::OutOfRange {
                 place: name.clone(),
                 value,
                 accepted: "friction >= 0",
             }),
-            _ => Ok(drive.clone()),
+            None => Ok(drive.clone()),
         }
     }
 }

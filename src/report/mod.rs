@@ -71,7 +71,9 @@ pub use failure::ReportedFailure;
 pub use figure::plot;
 pub use file::replace_file;
 pub use fit::{ReportedMeasure, ReportedPairFit};
-pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy};
+pub use half_space::{
+    HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy, spectrum_table,
+};
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};

@@ -35,7 +35,7 @@ impl Table {
     }
 
     /// Appends a row of named entries; all of one table have the same names.
-    pub(super) fn add(&mut self, row: impl IntoIterator<Item = (String, Cell)>) {
+    pub(crate) fn add(&mut self, row: impl IntoIterator<Item = (String, Cell)>) {
         let (columns, row) = row.into_iter().unzip();
         self.columns = columns;
         self.rows.push(row);

@@ -372,6 +372,13 @@ pub fn schema() -> serde_json::Value {
     schemars::schema_for!(Scene).to_value()
 }
 
+/// The same of a scene of half-spaces.
+#[cfg(feature = "cli")]
+#[must_use]
+pub fn half_space_schema() -> serde_json::Value {
+    schemars::schema_for!(HalfSpaceScene).to_value()
+}
+
 /// Reads a whole file. Folders and pipes are refused: a pipe could hold the program forever; what
 /// comes through one is given as standard input.
 pub(crate) fn read(place: &str, path: &Path) -> Result<Vec<u8>, Error> {
