@@ -245,7 +245,7 @@ impl HalfSpaceScene {
 
     fn build(&self) -> Result<HalfSpaceHistory, Error> {
         let SceneHalfSpace { cells, size, .. } = self.half_space;
-        let spacing = [0, 1].map(|axis| size[axis] / cells[axis] as f64);
+        let spacing = [0, 1].map(|axis| size[axis] / cells[axis].max(1) as f64);
         let grid = Grid::new(cells, spacing)?;
         let half = |half: SceneHalf| ElasticHalf {
             young: half.young,
@@ -262,6 +262,13 @@ impl HalfSpaceScene {
         );
         let operator = Arc::new(HalfSpace::new(grid, surroundings, material, other)?);
         let steps = self.drives()?;
+        if self.rolling.is_some() && steps.iter().any(|step| step.1 != Drag::Shift([0.0; 2])) {
+            return Err(Error::NotAccepted {
+                place: "rolling".to_owned(),
+                found: "a shift or a force beside it".to_owned(),
+                accepted: "creepage and spin alone, which take their place".to_owned(),
+            });
+        }
         let gap = self.gap(&grid)?;
         let problem = HalfSpaceProblem::new(operator, gap, &[self.friction], steps[0].0)?;
         for (press, drag) in &steps {

@@ -110,6 +110,17 @@ fn what_is_wrong_in_a_scene_is_told_with_its_place() {
             sphere(missing, r#", "load": 1"#),
             "surface[0].file: cannot read the file nowhere.npy",
         ),
+        (
+            sphere(
+                BALL,
+                r#", "load": 1, "force": [0.1, 0], "rolling": {"spin": 1}"#,
+            ),
+            "rolling: a shift or a force beside it",
+        ),
+        (
+            sphere(BALL, r#", "load": 1"#).replace("[16, 16]", "[0, 16]"),
+            "grid.cells[0]: 0",
+        ),
     ] {
         let found = scene(&text).unwrap().history().unwrap_err().to_string();
         assert!(found.starts_with(place), "{found} for {place}");
