@@ -29,18 +29,11 @@ pub(super) fn read_scene(path: &Path) -> Result<Scene, Box<dyn Error>> {
     })
 }
 
-/// Reads a scene of half-spaces from a file, if it is one: an object with a `half_space`.
+/// Reads a scene of half-spaces from a file, if it is one.
 pub(super) fn half_space_scene(path: &Path) -> Result<Option<HalfSpaceScene>, Box<dyn Error>> {
-    // What cannot be read is told by who reads it as a scene of bodies; a pipe would hold the program.
-    let regular = std::fs::metadata(path).is_ok_and(|found| found.is_file());
-    if !regular || is_deck(path) {
-        return Ok(None);
-    }
-    let text = std::fs::read(path).unwrap_or_default();
-    let value: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
-    Ok(match value.get("half_space") {
-        Some(_) => Some(HalfSpaceScene::from_file(path)?),
-        None => None,
+    Ok(match !is_deck(path) && HalfSpaceScene::is_in(path) {
+        true => Some(HalfSpaceScene::from_file(path)?),
+        false => None,
     })
 }
 

@@ -230,6 +230,14 @@ impl HalfSpaceScene {
         Self::from_json(&String::from_utf8_lossy(&bytes), path)
     }
 
+    /// Whether a file holds such a scene, right or wrong: an object with a `half_space`.
+    #[must_use]
+    pub fn is_in(path: &Path) -> bool {
+        let text = read("scene", path).unwrap_or_default();
+        let value: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
+        value.get("half_space").is_some()
+    }
+
     /// Checks every value, reads the height maps and makes the operator.
     ///
     /// # Errors
