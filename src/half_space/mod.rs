@@ -72,6 +72,7 @@ mod stiffness;
 mod sweep;
 mod symbol;
 mod transform;
+mod unknowns;
 mod vectors;
 
 pub use clusters::clusters;
@@ -82,6 +83,7 @@ pub use outcome::{
     HalfSpaceCertificate, HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork,
 };
 pub use problem::{Drag, HalfSpaceProblem, Press};
+pub(crate) use rectangle::Influence;
 pub use rolling::Creepage;
 pub use rough::SelfAffine;
 pub use spectrum::{SpectrumRing, power_spectrum};

@@ -6,6 +6,7 @@
 //! (S3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
 //! (S4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
 //! (S5)  half-steps to the last digit  so that loops differ in nothing but what they are named for
+//! (S6)  half-spaces in place of the bodies: the difference of pressures as a field
 //! ```
 //!
 //! A mesh that is generated is refined by its number of cells; meshes from files are given as a
@@ -14,12 +15,14 @@
 //! than a quarter of a second is repeated, and the median is kept.
 
 mod exact;
+mod half_space;
 mod ladder;
 mod loops;
 mod plan;
 mod tensor_grid;
 mod variant;
 
+pub use half_space::{HalfSpaceFit, half_space_fit};
 pub use plan::{Plan, Progress};
 pub use variant::{Mixing, Sweeps, Variant};
 

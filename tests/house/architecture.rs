@@ -18,7 +18,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
     ("condensation", &["body", "contact", "problem", "error"]),
     ("cone", &["problem", "limit", "error"]),
     ("limit", &["problem", "error"]),
-    ("half_space", &["error"]),
+    ("half_space", &["problem", "error"]),
     (
         "kkt",
         &["body", "contact", "problem", "condensation", "error"],
@@ -99,6 +99,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "pipeline",
             "report",
             "scene",
+            "half_space",
             "error",
         ],
     ),
