@@ -42,7 +42,10 @@
 //! | meshes and arrays in memory | [`Scene::new`], [`body::Mesh::from_arrays`], [`solve`] |
 //! | a condensed problem of another code | [`ContactProblem`], [`alternation::solve`](alternation::solve()) |
 //! | a load history | [`solve_steps`] |
+//! | the question how wrong the mesh leaves a total | [`solve_within`] |
 //! | many values of friction, loads, gaps | [`cases`] |
+//! | the question what a little more of anything does | [`Solution::sensitivities`] |
+//! | a measured total, and the friction or load wanted that gives it | [`find`] |
 //! | the question how much load or friction it takes | [`limit`](limit()) |
 //! | the question what theory says | [`closed_forms`] |
 //!
@@ -75,8 +78,8 @@ pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
-    Acting, BodyStress, Checked, Measured, Solution, SolvedStep, Variation, cases, cases_watched,
-    check, limit, solve, solve_half_space, solve_steps,
+    Acting, BodyStress, Checked, Measured, Request, Search, Solution, SolvedStep, Variation, cases,
+    cases_watched, check, find, limit, solve, solve_half_space, solve_steps, solve_within,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

@@ -1,4 +1,4 @@
-//! The command line: solve, cases, limit, half-space, study, check, import, schema, verify, and
+//! The command line: solve, cases, find, limit, half-space, study, check, import, schema, verify, and
 //! completions and manual pages for itself.
 
 mod commands;
@@ -9,7 +9,9 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use commands::{Cases, Check, Completions, HalfSpace, Import, Limit, Man, Solve, Study, Verify};
+use commands::{
+    Cases, Check, Completions, Find, HalfSpace, Import, Limit, Man, Solve, Study, Verify,
+};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -38,6 +40,9 @@ enum Command {
     /// factorisation.
     #[command(alias = "sweep")]
     Cases(Cases),
+    /// Find the friction, load, gap or obstacle position at which a total has a given value, such as
+    /// one that was measured.
+    Find(Find),
     /// Say by what factor each load can grow before nothing holds the bodies that only
     /// contact holds, and how much friction they take.
     Limit(Limit),
@@ -87,6 +92,7 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
     match command {
         Command::Solve(arguments) => commands::solve(&arguments),
         Command::Cases(arguments) => commands::cases(&arguments),
+        Command::Find(arguments) => commands::find(&arguments),
         Command::Limit(arguments) => commands::limit(&arguments),
         Command::HalfSpace(arguments) => commands::half_space(&arguments),
         Command::Study(arguments) => commands::study(&arguments),

@@ -50,7 +50,7 @@ pub(super) struct Springs<'a> {
 pub(super) struct Finish<'a> {
     problem: &'a ContactProblem,
     /// √ρ per unknown.
-    roots: Vec<f64>,
+    pub(super) roots: Vec<f64>,
     rigid: Option<Rigid>,
     last: Option<Factored>,
 }
@@ -103,8 +103,14 @@ impl<'a> Finish<'a> {
     pub(super) fn moved(&self, motion: &Motion, drift: &[f64]) -> Motion {
         match &self.rigid {
             None => Motion::default(),
-            Some(rigid) => motion.plus(&rigid.basis.amplitudes(drift)),
+            Some(_) => motion.plus(&self.amplitudes(drift)),
         }
+    }
+
+    /// A drift, in amplitudes of the free modes.
+    pub(super) fn amplitudes(&self, drift: &[f64]) -> Vec<f64> {
+        let rigid = self.rigid.as_ref();
+        rigid.map_or_else(Vec::new, |rigid| rigid.basis.amplitudes(drift))
     }
 
     /// What a state misses of the laws, as the root of an energy.
@@ -154,17 +160,28 @@ impl<'a> Finish<'a> {
         if !solution.iter().all(|x| x.is_finite()) {
             return None;
         }
+        self.add(&mut next, &unknowns, &solution);
+        Some(next)
+    }
+
+    /// Adds scaled reactions at unknowns, and a drift behind them.
+    pub(super) fn add(&self, point: &mut Point, unknowns: &[usize], solution: &Col<f64>) {
         for (&unknown, scaled) in unknowns.iter().zip(solution.iter()) {
-            self.push(&mut next, unknown, self.roots[unknown] * scaled);
+            self.push(point, unknown, self.roots[unknown] * scaled);
         }
         if let Some(rigid) = &self.rigid {
             let drift = solution.iter().skip(unknowns.len());
             for (k, along) in drift.enumerate() {
-                next.drift[k] += along;
-                add(&mut next.beyond, *along, rigid.velocities.col_as_slice(k));
+                point.drift[k] += along;
+                add(&mut point.beyond, *along, rigid.velocities.col_as_slice(k));
             }
         }
-        Some(next)
+    }
+
+    /// A load on the free modes, along the velocities.
+    pub(super) fn along(&self, load: &[f64]) -> Vec<f64> {
+        let rigid = self.rigid.as_ref();
+        rigid.map_or_else(Vec::new, |rigid| rigid.basis.load(load))
     }
 
     /// How far a point is from (D4) and (D5), as the root of an energy: sizes of the contacts do not weigh.
@@ -201,12 +218,12 @@ impl<'a> Finish<'a> {
         self.rigid.as_ref().map_or(0, |rigid| rigid.load.len())
     }
 
-    fn block(&self, contact: usize) -> Range<usize> {
+    pub(super) fn block(&self, contact: usize) -> Range<usize> {
         self.problem.offsets()[contact]..self.problem.offsets()[contact + 1]
     }
 
     /// A contact under springs.
-    fn local(
+    pub(super) fn local(
         &self,
         contact: usize,
         reaction: &[f64],
@@ -230,8 +247,13 @@ impl<'a> Finish<'a> {
 
     /// μ between scaled reactions.
     fn friction(&self, contact: usize) -> f64 {
+        self.problem.friction()[contact] * self.shape(contact)
+    }
+
+    /// By what a coefficient is larger between scaled reactions; 0 where there is no tangent.
+    pub(super) fn shape(&self, contact: usize) -> f64 {
         match self.roots[self.block(contact)] {
-            [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
+            [normal, tangential, ..] => normal / tangential,
             _ => 0.0,
         }
     }
@@ -261,7 +283,7 @@ impl<'a> Finish<'a> {
     }
 
     /// Matrix of (D4) with (D5): reactions of contacts that are not open, then rigid motions.
-    fn matrix(&self, laws: &[Law], unknowns: &[usize], softness: f64) -> Mat<f64> {
+    pub(super) fn matrix(&self, laws: &[Law], unknowns: &[usize], softness: f64) -> Mat<f64> {
         let (reactions, motions) = (unknowns.len(), self.velocities());
         let mut matrix = Mat::zeros(reactions + motions, reactions + motions);
         for (j, &unknown) in unknowns.iter().enumerate() {

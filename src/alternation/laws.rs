@@ -8,6 +8,7 @@ use crate::problem::ContactProblem;
 const NOTHING: f64 = f64::EPSILON;
 
 /// A contact's reaction and its displacement beyond what is free, normal first.
+#[derive(Clone, Copy)]
 pub(super) struct Local {
     pub(super) reaction: [f64; 3],
     pub(super) beyond: [f64; 3],
@@ -31,14 +32,82 @@ enum State {
 }
 
 /// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = 0`, a row per unknown.
+#[derive(Clone)]
 pub(super) struct Law {
     pub(super) contact: usize,
     pub(super) block: Range<usize>,
     on_reaction: [[f64; 3]; 3],
     on_displacement: [[f64; 3]; 3],
+    /// What more of μ asks for.
+    on_friction: [f64; 3],
+}
+
+/// A contact that may do one thing or another next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Edge {
+    /// Neither pressed nor apart; with the direction of the friction that it would have, if it slides.
+    Touching(Option<[f64; 2]>),
+    /// Friction along this direction is all that its bound allows, and nothing slides.
+    Verge([f64; 2]),
+}
+
+impl Edge {
+    /// The law by which its rates go on; none if it opens. `rates` are those of a trial, `shrinking` what its bound
+    /// loses as μ changes.
+    pub(super) fn law(
+        self,
+        rates: &Local,
+        shrinking: f64,
+        (contact, block): (usize, Range<usize>),
+        pressing: f64,
+    ) -> Option<Law> {
+        let trial = [0, 1, 2].map(|k| rates.reaction[k] - rates.beyond[k]);
+        let state = match self {
+            Self::Touching(_) if trial[0] >= 0.0 => State::Open,
+            Self::Touching(None) => rates.state(),
+            Self::Touching(Some(direction)) => State::slip(direction, 0.0),
+            Self::Verge(direction) => {
+                let along = direction[0] * trial[1] + direction[1] * trial[2];
+                match along + rates.friction * rates.reaction[0] + shrinking > 0.0 {
+                    true => State::slip(direction, 1.0),
+                    false => State::Stick,
+                }
+            }
+        };
+        let pressed = Local {
+            reaction: [pressing, 0.0, 0.0],
+            ..*rates
+        };
+        pressed.law_of(state, contact, block)
+    }
+}
+
+impl State {
+    /// Slip where the bound is not asked for.
+    fn slip(direction: [f64; 2], ratio: f64) -> Self {
+        Self::Slip {
+            direction,
+            bound: 0.0,
+            ratio,
+        }
+    }
 }
 
 impl Local {
+    /// The edge on which the contact is, within a `tolerance` for what it carries and where it is.
+    pub(super) fn edge(&self, tolerance: f64) -> Option<Edge> {
+        let small = |x: f64| x.abs() <= tolerance;
+        let (t, w) = (self.reaction, self.beyond);
+        let (friction, slip) = (t[1].hypot(t[2]), w[1].hypot(w[2]));
+        if small(t[0]) && small(w[0]) {
+            let slides = slip > tolerance;
+            return Some(Edge::Touching(slides.then(|| [-w[1] / slip, -w[2] / slip])));
+        }
+        let bound = -self.friction * t[0];
+        let verge = bound > tolerance && small(friction - bound) && small(slip);
+        verge.then(|| Edge::Verge([t[1] / friction, t[2] / friction]))
+    }
+
     fn state(&self) -> State {
         let trial = [0, 1, 2].map(|k| self.reaction[k] - self.step * self.beyond[k]);
         if trial[0] >= 0.0 {
@@ -75,14 +144,23 @@ impl Local {
 
     /// The law of what a contact does; none if it is open.
     pub(super) fn law(&self, contact: usize, block: Range<usize>) -> Option<Law> {
+        self.law_of(self.state(), contact, block)
+    }
+
+    fn law_of(&self, state: State, contact: usize, block: Range<usize>) -> Option<Law> {
+        let mut on_friction = [0.0; 3];
         let (mut on_reaction, mut on_displacement) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
         on_displacement[0][0] = 1.0;
-        match self.state() {
+        match state {
             State::Open => return None,
             State::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
             State::Slip {
                 direction, ratio, ..
             } => {
+                on_friction = [0, 1, 2].map(|k| match k {
+                    0 => 0.0,
+                    k => direction[k - 1] * self.reaction[0],
+                });
                 for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let unit = if a == b { 1.0 } else { 0.0 };
                     let m = ratio * (unit - direction[a] * direction[b]);
@@ -97,6 +175,7 @@ impl Local {
             block,
             on_reaction,
             on_displacement,
+            on_friction,
         })
     }
 }
@@ -108,6 +187,12 @@ impl Law {
             let forces = dot(self.on_reaction[row], at.reaction);
             -forces - dot(self.on_displacement[row], at.beyond)
         })
+    }
+
+    /// Minus what displacements and friction that change ask of its rows.
+    pub(super) fn asked(&self, moved: [f64; 3], friction: f64) -> [f64; 3] {
+        [0, 1, 2]
+            .map(|row| -dot(self.on_displacement[row], moved) - friction * self.on_friction[row])
     }
 
     /// Its rows for a unit of something that moves the contact, and that may be one of its own reactions.

@@ -17,6 +17,8 @@
 //! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
 //! step on what each contact does there.
 //!
+//! A solved state's derivatives come from the same Newton matrix (D15): [`Linearised`].
+//!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
 
@@ -34,6 +36,7 @@ mod laws;
 mod path;
 mod prediction;
 mod proximal;
+mod rates;
 mod run;
 mod settings;
 mod starts;
@@ -45,6 +48,7 @@ pub use gauss_seidel::GaussSeidel;
 pub(crate) use history::Failure;
 pub use history::{Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
 pub use path::continuity::{Earlier, WayBack, way_back};
+pub use rates::{Drive, Linearised, Rate, Sides};
 pub use settings::{Interrupt, Settings};
 pub(crate) use starts::OtherStarts;
 pub use starts::other_starts;

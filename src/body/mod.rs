@@ -51,6 +51,7 @@ mod reference;
 mod rigid;
 mod rigid_modes;
 mod sparsity;
+mod split;
 mod spread;
 mod stiffness;
 mod stress;

@@ -1,8 +1,10 @@
 //! The commands, one per file: its arguments, then what is done with them.
 
+mod accuracy;
 mod cases;
 mod check;
 mod completions;
+mod find;
 mod half_space;
 mod import;
 mod interrupt;
@@ -19,6 +21,7 @@ mod verify;
 pub(crate) use cases::{Cases, cases};
 pub(crate) use check::{Check, check};
 pub(crate) use completions::{Completions, completions};
+pub(crate) use find::{Find, find};
 pub(crate) use half_space::{HalfSpace, half_space};
 pub(crate) use import::{Import, import};
 pub(crate) use limit::{Limit, limit};

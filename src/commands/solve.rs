@@ -6,10 +6,12 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::{self, Cell, Continuity, Page, Table, replace_file, vtu};
+use dpana::report::{self, Accuracy, Cell, Continuity, Page, Report, Table, replace_file, vtu};
 use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
+use super::accuracy;
+use super::accuracy::part;
 use super::interrupt;
 use super::outputs::{check_file, check_output, is_standard, say, write_output, write_table};
 use super::progress::Progress;
@@ -70,6 +72,35 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
+    /// Say what the totals gain per unit of friction, gap, load, support, obstacle motion and modulus, also
+    /// as columns of `--table`; of scenes without load steps.
+    #[arg(long)]
+    sensitivity: bool,
+    /// Refine the meshes until the total of `--of` is as accurate as this, such as `1%` or `0.01`: every
+    /// cell is split, and the total extrapolated with the rate observed. All outputs are of the finest mesh.
+    #[arg(long, value_name = "PART", value_parser = part, conflicts_with_all = ["restart", "state"])]
+    accuracy: Option<f64>,
+    /// Total that should be accurate: a column of `--table` such as peak_pressure or normal, `energy`, or
+    /// a displacement at a point such as `u_x@0.5,0`.
+    #[arg(
+        long,
+        value_name = "TOTAL",
+        default_value = "normal",
+        requires = "accuracy"
+    )]
+    of: String,
+    /// Mesh files in place of the scene's one, from coarse to fine, three at least; cells are split where none
+    /// are given.
+    #[arg(
+        long,
+        value_name = "FILES",
+        value_delimiter = ',',
+        requires = "accuracy"
+    )]
+    meshes: Vec<PathBuf>,
+    /// Memory that `--accuracy` may fill, in GB; three quarters of what is free when left out.
+    #[arg(long, value_name = "GB", requires = "accuracy")]
+    memory: Option<f64>,
     /// Print no summary and no progress: the exit status says whether the state is certified.
     #[arg(short, long)]
     quiet: bool,
@@ -87,33 +118,26 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     let mut scene = read_scene(&arguments.scene)?;
     scene.settings.interrupt = interrupt::on_ctrl_c();
     check_drawable(arguments, &scene)?;
+    if arguments.sensitivity && scene.steps.is_some() {
+        return Err("--sensitivity: a load history; expected a scene without steps".into());
+    }
     let from = match &arguments.restart {
         None => None,
         Some(path) => Some(saved_state(path)?),
     };
-    let mut jumps = Vec::new();
     let mut states = States::new(arguments, axes, &scene, from.as_ref())?;
     let progress = Progress::new(arguments.quiet);
-    let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
-        if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
-            let (number, all) = (step.number(), steps.at.len());
-            progress.show(&format!("step {number} of {all}, at {}", step.at()));
-            // That of the last state is part of the report.
-            if arguments.starts.is_some() && number < all {
-                jumps.extend(jump(solution)?.map(|words| format!("step {number:<11}{words}")));
-            }
-        }
-        states.add(solution)
-    });
+    let (solution, accuracy) = solved(&scene, from.as_ref(), &mut states, &progress)?;
     drop(progress);
-    let solution = solution?;
-    let mut report = solution.report()?;
+    let mut report = states.last.take().map_or_else(|| solution.report(), Ok)?;
     if let Some(starts) = arguments.starts {
         report.trust = solution.trust(starts)?;
     }
     if arguments.quality {
         report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
     }
+    let missed = accuracy.as_ref().is_some_and(|accuracy| !accuracy.reached);
+    report.accuracy = accuracy;
     if let Some(path) = &arguments.report {
         write_output(path, &report.to_json())?;
     }
@@ -123,17 +147,58 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     if !arguments.quiet {
         let outputs = || arguments.report.iter().chain(&arguments.table);
         say(outputs(), report.summary().trim_end())?;
-        for jump in jumps {
-            say(outputs(), &jump)?;
+        for jump in &states.jumps {
+            say(outputs(), jump)?;
         }
     }
     Ok(match solution.status() {
+        Status::Certified if missed => ExitCode::from(1),
         Status::Certified => ExitCode::SUCCESS,
         Status::NotConverged | Status::NoEquilibrium | Status::CouplingFault => ExitCode::from(1),
     })
 }
 
+/// The last state, or that on the finest mesh with what the meshes say of a total.
+fn solved(
+    scene: &Scene,
+    from: Option<&SavedState>,
+    states: &mut States<'_>,
+    progress: &Progress,
+) -> Result<(Solution, Option<Accuracy>), Box<dyn Error>> {
+    let arguments = states.arguments;
+    if let Some(within) = arguments.accuracy {
+        let request = arguments.request(within)?;
+        let (solution, accuracy) = accuracy::refine(scene, &request, progress)?;
+        states.add(&solution)?;
+        return Ok((solution, Some(accuracy)));
+    }
+    let solution = dpana::solve_steps(scene, from, |solution| {
+        if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
+            let (number, all) = (step.number(), steps.at.len());
+            progress.show(&format!("step {number} of {all}, at {}", step.at()));
+            // That of the last state is part of the report.
+            if arguments.starts.is_some() && number < all {
+                let jump = jump(solution)?;
+                states
+                    .jumps
+                    .extend(jump.map(|words| format!("step {number:<11}{words}")));
+            }
+        }
+        states.add(solution)
+    });
+    Ok((solution?, None))
+}
+
 impl Solve {
+    fn request(&self, within: f64) -> Result<dpana::Request, String> {
+        Ok(dpana::Request {
+            of: self.of.clone(),
+            within,
+            memory: accuracy::memory(self.memory)?,
+            meshes: self.meshes.clone(),
+        })
+    }
+
     /// The same with an ending where a file needs one.
     fn completed(&self) -> Self {
         let mut completed = self.clone();
@@ -162,6 +227,10 @@ struct States<'a> {
     table: Table,
     files: Vec<(f64, PathBuf)>,
     page: Option<Page>,
+    /// Report of the last state.
+    last: Option<Report>,
+    /// Of all steps but the last.
+    jumps: Vec<String>,
 }
 
 impl<'a> States<'a> {
@@ -178,6 +247,8 @@ impl<'a> States<'a> {
             table: Table::default(),
             files: Vec::new(),
             page: arguments.page.as_deref().map(Page::new),
+            last: None,
+            jumps: Vec::new(),
         };
         let (Some(from), Some(steps)) = (from, &scene.steps) else {
             return Ok(states);
@@ -199,7 +270,11 @@ impl<'a> States<'a> {
 
     /// Takes up a state; every file is whole after it.
     fn add(&mut self, solution: &Solution) -> Result<(), dpana::Error> {
-        let (arguments, report) = (self.arguments, solution.report()?);
+        let arguments = self.arguments;
+        let mut report = solution.report()?;
+        if arguments.sensitivity {
+            report.sensitivity = solution.sensitivities()?.unwrap_or_default();
+        }
         let given = match &report.step {
             None => Vec::new(),
             Some(step) => {
@@ -246,6 +321,7 @@ impl<'a> States<'a> {
         if let Some(page) = &mut self.page {
             solution.add_to_page(page)?;
         }
+        self.last = Some(report);
         // Last, so that whoever takes the history on from here finds all that came before.
         match (&arguments.state, solution.saved_state()) {
             (Some(path), Some(state)) if solution.status() == Status::Certified => {

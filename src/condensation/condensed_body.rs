@@ -131,7 +131,7 @@ impl FactoredBody {
     }
 
     /// (C6), or (C17) with a border.
-    fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
+    pub(super) fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
         let x = match self.factor.is_bordered() {
             true => self.factor.displacement_under(&action.half_solved, forces),
             false => self.solve(&action.half_solved, forces),

@@ -99,7 +99,7 @@ impl Condensed {
     }
 
     /// (C14).
-    fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
+    pub(super) fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
         let mut reference = slip.to_vec();
         let moved = self.surface.obstacle_motions(obstacles);
         let contacts = self.surface.nodes.iter().zip(moved);

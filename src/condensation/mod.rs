@@ -19,6 +19,7 @@
 //! | recovered body (C6), set right where the factor has few digits (C24) | `condensed_body`, `correction` |
 //! | room for what is dense | `room` |
 //! | the problem of a load step (C13) | `load_step` |
+//! | what loads, supports, obstacles and moduli change per unit (C25) | `rates` |
 
 mod border;
 mod columns;
@@ -33,6 +34,7 @@ mod load_case;
 mod load_step;
 mod local_axes;
 mod ordering;
+mod rates;
 mod rigid_bodies;
 mod room;
 mod substitution;
@@ -44,6 +46,7 @@ mod work;
 
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
+pub(crate) use rates::BodyRate;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
 pub(crate) use room::dense_bytes;
 pub(crate) use superposition::{Driven, Superposition};

@@ -82,11 +82,21 @@ impl Condensed {
 
     /// (C5) under those loads and given displacements of a body that act.
     fn answer(&mut self, at: usize, body: &Body, acts: impl Fn(Driven) -> bool) -> Action {
+        self.work.substitutions += 1;
+        self.answer_of(at, body, acts)
+    }
+
+    /// The same, not counted.
+    pub(super) fn answer_of(
+        &self,
+        at: usize,
+        body: &Body,
+        acts: impl Fn(Driven) -> bool,
+    ) -> Action {
         let loads = body.loads.iter().enumerate();
         let loads = loads.filter(|&(index, _)| acts(Driven::Load { body: at, index }));
         let loads: Vec<Load> = loads.map(|(_, load)| load.clone()).collect();
         let moves = |index| acts(Driven::Support { body: at, index });
-        self.work.substitutions += 1;
         self.bodies[at].answer(
             body::nodal_forces(body, &loads),
             displacements_of(body, moves),
@@ -122,7 +132,7 @@ impl Superposition {
 }
 
 impl Driven {
-    fn check(self, bodies: &[Body]) -> Result<(), Error> {
+    pub(super) fn check(self, bodies: &[Body]) -> Result<(), Error> {
         let body = bodies.get(self.body());
         let (what, index, count) = match (self, body) {
             (_, None) => ("body", self.body(), bodies.len()),
@@ -140,7 +150,7 @@ impl Driven {
         }
     }
 
-    fn body(self) -> usize {
+    pub(super) fn body(self) -> usize {
         match self {
             Self::Load { body, .. } | Self::Support { body, .. } => body,
         }

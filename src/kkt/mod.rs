@@ -15,6 +15,7 @@
 //! (K7)  e·α > 0,  v_N + μ ‖v_T‖ ≤ 0,  v = R α                    a motion that nothing stops
 //! (K8)  Rᵀ t + e = 0                                            equilibrium of floating bodies
 //! (K9)  external work = elastic + dissipation + closure          where the work of a load step went
+//! (K15) Π(u) + Π*(t) ≥ 0                                         energies of a displacement and a reaction
 //! ```
 //!
 //! It shares no code with the solver: it never sees a cone program or a sweep, only
@@ -29,6 +30,7 @@ mod body_state;
 mod certificate;
 mod coulomb;
 mod depth;
+mod energies;
 mod exchange;
 mod floating;
 mod held;
@@ -51,6 +53,7 @@ pub use balance::{Balance, WorstNode, balance};
 pub use body_state::BodyState;
 pub(crate) use certificate::Defect;
 pub use certificate::{Certificate, ContactStatus, Verdict, Worst};
+pub use energies::{Energies, Motion, energies};
 pub(crate) use exchange::Exchange;
 pub use exchange::exchange;
 pub(crate) use held::held;

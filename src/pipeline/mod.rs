@@ -1,15 +1,20 @@
 //! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge; a load history
 //! goes round the last three.
 
+mod accuracy;
 mod cases;
 mod check;
 mod corrected;
+mod find;
 mod half_space;
 mod halving;
 mod limit;
 mod measured;
+mod quantities;
+mod sensitivity;
 mod steps;
 mod substep;
+mod total;
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
@@ -30,12 +35,15 @@ use crate::report::{
 use crate::scene::{Mechanics, Scene};
 use crate::{alternation, body, kkt, validity};
 
-pub use cases::{Variation, cases, cases_watched};
+pub use accuracy::{Request, solve_within};
+pub use cases::{cases, cases_watched};
 pub use check::{Checked, check};
+pub use find::{Search, find};
 pub use half_space::solve_half_space;
 pub(crate) use halving::Halving;
 pub use limit::limit;
 pub use measured::{Acting, Measured};
+pub use quantities::Variation;
 pub use steps::{SolvedStep, solve_steps};
 
 /// Solves a scene; one with load steps to its end, or to the first state that is not certified.
@@ -53,7 +61,10 @@ pub fn solve(scene: &Scene) -> Result<Solution, Error> {
 struct Setup {
     title: String,
     units: String,
+    /// Under the factors of heat and initial stress.
     bodies: Arc<[Body]>,
+    /// The same at factors of one.
+    stated: Arc<[Body]>,
     pairs: Arc<[ContactPair]>,
     settings: Settings,
     notes: Vec<String>,
@@ -77,10 +88,12 @@ impl Setup {
             openings: pairs.iter().map(|pair| pair.gap).collect(),
             ..Acting::default()
         };
+        let bodies: Arc<[Body]> = bodies.into();
         Ok(Self {
             title: scene.title.clone(),
             units: scene.units.clone(),
-            bodies: bodies.into(),
+            stated: Arc::clone(&bodies),
+            bodies,
             pairs: pairs.into(),
             settings,
             notes,
@@ -128,20 +141,20 @@ impl Setup {
     }
 
     /// Puts heat and initial stress under factors, as the stress of the bodies knows them; nothing is done
-    /// where no driven load has any. `stated` are the bodies at factors of one.
-    fn stress_under(&mut self, stated: &Arc<[Body]>, driven: &[Driven], factors: &[f64]) {
+    /// where no driven load has any.
+    fn stress_under(&mut self, driven: &[Driven], factors: &[f64]) {
         let acting = driven.iter().zip(factors).filter_map(|(driven, factor)| {
             let Driven::Load { body, index } = *driven else {
                 return None;
             };
-            let load = stated.get(body)?.loads.get(index)?;
+            let load = self.stated.get(body)?.loads.get(index)?;
             load.stresses().then(|| (body, index, load.scaled(*factor)))
         });
         let acting: Vec<_> = acting.collect();
         if acting.is_empty() {
             return;
         }
-        let mut bodies = stated.to_vec();
+        let mut bodies = self.stated.to_vec();
         for (body, index, load) in acting {
             bodies[body].loads[index] = load;
         }
@@ -241,6 +254,19 @@ impl Solution {
         Ok(near)
     }
 
+    /// Elastic energy `½ uᵀ K u` of all bodies and of the springs that hold them, in joule.
+    #[must_use]
+    pub fn elastic_energy(&self) -> f64 {
+        let bodies = self.setup.condensed.bodies().iter();
+        let energies = bodies.zip(&self.displacements).map(|(body, u)| {
+            let entries = body.stiffness().iter();
+            entries
+                .map(|(k, (row, column))| 0.5 * u[row] * k * u[column])
+                .sum::<f64>()
+        });
+        energies.sum()
+    }
+
     /// Equilibrium of each whole body, measured by the judge.
     #[must_use]
     pub fn balances(&self) -> &[kkt::Balance] {
@@ -259,9 +285,23 @@ impl Solution {
     ///
     /// None for a solution of [`solve`].
     pub fn report(&self) -> Result<Report, Error> {
+        self.with_parts(|parts| {
+            let halving = self.step.as_ref().and_then(SolvedStep::halving);
+            let halving: Vec<String> = halving.and_then(Halving::note).into_iter().collect();
+            let doubts = validity::notes(parts);
+            Report::new(&ReportParts {
+                notes: &[self.setup.notes.as_slice(), &halving, &doubts].concat(),
+                ..parts.clone()
+            })
+        })
+    }
+
+    /// What a report is made of, without notes.
+    fn with_parts<T>(
+        &self,
+        make: impl FnOnce(&ReportParts<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
         let work = self.setup.condensed.work();
-        let halving = self.step.as_ref().and_then(SolvedStep::halving);
-        let halving: Vec<String> = halving.and_then(Halving::note).into_iter().collect();
         let failure = self.outcome.failure.iter();
         let motions: Vec<_> = failure
             .flat_map(|failure| self.setup.condensed.motions(&failure.apparent))
@@ -271,7 +311,7 @@ impl Solution {
             .body_states(&self.outcome.reaction, &self.displacements);
         let support_forces = states.iter().map(kkt::support_forces);
         let support_forces: Vec<_> = support_forces.collect::<Result<_, _>>()?;
-        let parts = ReportParts {
+        make(&ReportParts {
             title: &self.setup.title,
             units: &self.setup.units,
             bodies: &self.setup.bodies,
@@ -297,11 +337,6 @@ impl Solution {
             origins: self.step.as_ref().map_or(&[], |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
             notes: &[],
-        };
-        let doubts = validity::notes(&parts);
-        Report::new(&ReportParts {
-            notes: &[self.setup.notes.as_slice(), &halving, &doubts].concat(),
-            ..parts
         })
     }
 

@@ -5,7 +5,6 @@ use std::sync::Arc;
 use super::Setup;
 use crate::alternation;
 use crate::alternation::{Earlier, Outcome, Status};
-use crate::body::Body;
 use crate::condensation::Superposition;
 use crate::contact::ContactSurface;
 use crate::error::Error;
@@ -18,8 +17,6 @@ pub(super) struct Course<'a> {
     pub(super) setup: Setup,
     pub(super) history: &'a LoadHistory,
     under: Superposition,
-    /// At factors of one.
-    stated: Arc<[Body]>,
 }
 
 /// What the next solve needs of a state.
@@ -56,7 +53,6 @@ impl<'a> Course<'a> {
         let (condensed, driven) = (&mut setup.condensed, history.driven());
         let under = condensed.superpose(&setup.bodies, &driven)?;
         Ok(Self {
-            stated: Arc::clone(&setup.bodies),
             setup,
             history,
             under,
@@ -75,7 +71,7 @@ impl<'a> Course<'a> {
         condensed.act(&self.under, &factors, &obstacles, slip)?;
         self.setup.acting.obstacles.clone_from(&obstacles);
         let driven = self.history.driven();
-        self.setup.stress_under(&self.stated, &driven, &factors);
+        self.setup.stress_under(&driven, &factors);
         Ok(obstacles)
     }
 

@@ -86,11 +86,11 @@ pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<
 }
 
 /// Reactions of all contacts, split into normal and friction.
-pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
+pub(super) fn contact_forces(parts: &ReportParts<'_>, reaction: &[f64]) -> Vec<ContactForce> {
     let nodes = parts.surface.nodes.iter().zip(parts.problem.blocks());
     nodes
         .map(|(contact, block)| {
-            let block = &parts.outcome.reaction[block];
+            let block = &reaction[block];
             let total = global_force(contact, block);
             let normal = global_force(contact, &block[..1]);
             ContactForce {
@@ -107,7 +107,7 @@ pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
 /// step on, in metre. Not read
 /// from the contact problem, which holds no tangent where there is no friction: the bodies
 /// slide all the same.
-fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
+pub(super) fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
     if parts.outcome.verdict.status[i] == ContactStatus::Open {
         return [0.0; 3];
     }
@@ -116,9 +116,13 @@ fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
     if let Some(origin) = parts.origins.get(i) {
         slip.iter_mut().zip(origin).for_each(|(u, from)| *u -= from);
     }
-    let normal = contact.frame[0];
-    let along: f64 = slip.iter().zip(normal).map(|(u, n)| u * n).sum();
-    [0, 1, 2].map(|axis| slip[axis] - along * normal[axis])
+    across(contact.frame[0], slip)
+}
+
+/// `u − (u·n) n`.
+pub(super) fn across(normal: [f64; 3], vector: [f64; 3]) -> [f64; 3] {
+    let along: f64 = vector.iter().zip(normal).map(|(u, n)| u * n).sum();
+    [0, 1, 2].map(|axis| vector[axis] - along * normal[axis])
 }
 
 /// A traction; none for a contact without area, whose force has no finite one.

@@ -16,12 +16,16 @@
 //! | `certificate` | natural-map residual, every law's worst violation and where, bipotential gap; per body the balance of forces and moments |
 //! | `step` | of a history: number, instant, values of the tables, ledger of the step and since the start, what halving it changed |
 //! | `totals` | counts of open, stick and slip, resultants, contact area, slip area, peak pressure; the same per contact pair, and what its sides exchange |
+//! | `accuracy` | with `--accuracy`: a total extrapolated over a family of meshes, its error, rate and levels |
+//! | `found` | of `dpana find`: the parameter, its value, the total there and its derivative |
+//! | `sensitivity` | with `--sensitivity`: derivatives of the totals with respect to friction, gaps, loads, supports, obstacles, moduli |
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
 //! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
 //! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
 
+mod accuracy;
 mod base64;
 mod certificate;
 mod contacts;
@@ -32,6 +36,7 @@ mod failure;
 mod figure;
 mod file;
 mod fit;
+mod found;
 mod half_space;
 #[cfg(feature = "cli")]
 mod hard;
@@ -42,6 +47,7 @@ mod notes;
 mod page;
 mod picture;
 mod quality;
+mod sensitivity;
 mod shortfall;
 mod step;
 #[cfg(feature = "cli")]
@@ -62,6 +68,7 @@ mod work;
 
 use serde::Serialize;
 
+pub use accuracy::{Accuracy, AccuracyLevel};
 pub(crate) use certificate::ReportedDefect;
 pub use certificate::{ReportedBalance, ReportedCertificate, ReportedWorst};
 pub use contacts::{Contact, ReportedContactState};
@@ -71,6 +78,7 @@ pub use failure::ReportedFailure;
 pub use figure::plot;
 pub use file::replace_file;
 pub use fit::{ReportedMeasure, ReportedPairFit};
+pub use found::Found;
 pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy};
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
@@ -83,6 +91,8 @@ pub use page::Page;
 pub(crate) use page::PageState;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
+pub(crate) use sensitivity::{Moved, derivatives};
+pub use sensitivity::{ReportedDerivative, Sensitivity};
 pub use shortfall::ReportedShortfall;
 pub(crate) use step::ReportedHalving;
 pub use step::{ReportedLedger, ReportedStep};
@@ -133,6 +143,15 @@ pub struct Report {
     pub trust: Option<Trust>,
     /// Totals over the contact surface, and pair by pair.
     pub totals: Totals,
+    /// How wrong a total still is, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The parameter that makes this state what was asked for, where one was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub found: Option<Found>,
+    /// Derivatives of the totals, where they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<Sensitivity>,
     /// What is largest in the bodies.
     pub extremes: ReportedExtremes,
     /// What every support carries.
@@ -263,7 +282,7 @@ impl Report {
             parts.problem,
             &parts.outcome.reaction,
         )?;
-        let forces = contacts::contact_forces(parts);
+        let forces = contacts::contact_forces(parts, &parts.outcome.reaction);
         let contacts = contacts::contacts(parts, &forces);
         Ok(Self {
             title: parts.title.to_owned(),
@@ -276,6 +295,9 @@ impl Report {
             certificate: ReportedCertificate::new(parts),
             trust: None,
             totals: Totals::new(parts, &exchanges, &forces),
+            accuracy: None,
+            found: None,
+            sensitivity: Vec::new(),
             extremes: ReportedExtremes::new(parts),
             supports: extremes::support_forces(parts),
             quality: Quality::new(parts, &contacts),

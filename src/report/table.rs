@@ -236,6 +236,14 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
             ),
         ]);
     }
+    let derivatives = report.sensitivity.iter().flat_map(|sensitivity| {
+        let of = sensitivity.derivatives.iter();
+        of.map(|derivative| {
+            let name = format!("d({})/d({})", derivative.of, sensitivity.parameter);
+            (name, Cell::Number(derivative.growing))
+        })
+    });
+    row.extend(derivatives);
     row.into_iter()
 }
 

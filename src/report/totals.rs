@@ -107,13 +107,13 @@ pub struct ReportedExchange {
 
 /// Sums while contacts are met.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+pub(super) struct Sums {
     open: usize,
     stick: usize,
     slip: usize,
-    normal: f64,
-    friction: [f64; 3],
-    contact: kkt::Resultant,
+    pub(super) normal: f64,
+    pub(super) friction: [f64; 3],
+    pub(super) contact: kkt::Resultant,
     stick_area: f64,
     slip_area: f64,
     peak_pressure: f64,
@@ -126,14 +126,8 @@ impl Totals {
         exchanges: &[kkt::Exchange],
         forces: &[ContactForce],
     ) -> Self {
-        let mut all = Sums::default();
-        let mut of_pairs = vec![Sums::default(); parts.pairs.len()];
-        let contacts = parts.surface.nodes.iter().zip(forces);
-        for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
-            let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
-            all.add(contact, centre, force, status);
-            of_pairs[contact.pair].add(contact, centre, force, status);
-        }
+        let all = Sums::of(parts, forces, None);
+        let of_pairs = (0..parts.pairs.len()).map(|pair| Sums::of(parts, forces, Some(pair)));
         let dimension = parts.dimension();
         let fits = parts.fits.iter().map(|fit| Some(fit.into()));
         let fits = fits.chain(std::iter::repeat(None));
@@ -163,6 +157,23 @@ impl ReportedExchange {
 }
 
 impl Sums {
+    /// Over the contacts of one pair, or of all.
+    pub(super) fn of(
+        parts: &ReportParts<'_>,
+        forces: &[ContactForce],
+        pair: Option<usize>,
+    ) -> Self {
+        let mut sums = Self::default();
+        let contacts = parts.surface.nodes.iter().zip(forces);
+        for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
+            if pair.is_none_or(|pair| pair == contact.pair) {
+                let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
+                sums.add(contact, centre, force, status);
+            }
+        }
+        sums
+    }
+
     /// `centre`: where its force acts, in metre.
     fn add(
         &mut self,

@@ -13,4 +13,5 @@ mod patch;
 mod quadratic_hertz;
 mod quadratic_ssnv128;
 mod quality;
+mod sensitivity;
 mod ssnv128;

@@ -6,7 +6,9 @@ mod square;
 
 mod bare_problems;
 mod continuity;
+mod derivatives;
 mod discrete_kinds;
+mod energies;
 mod hard_cases;
 mod judge;
 mod limits;
