@@ -6,7 +6,11 @@
 //! (S3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
 //! (S4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
 //! (S5)  half-steps to the last digit  so that loops differ in nothing but what they are named for
+//! (S6)  penalty    springs of ε = τ^(−1/2) times a contact's own stiffness, at a tolerance τ; (S7) multipliers around them
 //! ```
+//!
+//! Panagiotopoulos' alternation on displacements poses the two half-steps in their primal form, so that its iterates are those
+//! of the plain sweeps.
 //!
 //! A mesh that is generated is refined by its number of cells; meshes from files are given as a
 //! list. Loops are compared on the finest mesh whose contact surface is small enough for all of
@@ -16,6 +20,7 @@
 mod exact;
 mod ladder;
 mod loops;
+mod penalty;
 mod plan;
 mod tensor_grid;
 mod variant;

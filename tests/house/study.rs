@@ -82,6 +82,18 @@ fn loops_on_the_square_take_the_sweeps_that_theory_gives_them() {
             "{name}"
         );
     }
+    // Springs of a million times a contact's own stiffness leave about a millionth of the reaction, if rounding of
+    // contacts that share them counts a hundred times at most; multipliers around soft ones leave nothing.
+    let rival = |name: &str| run(&study, Part::Loops, name, None);
+    let penalty = rival("penalty");
+    assert_eq!(penalty.status, ReportedStatus::NotConverged);
+    assert!((1e-8..1e-4).contains(&penalty.distance), "{penalty:?}");
+    let augmented = rival("augmented Lagrangian");
+    assert_eq!(augmented.status, ReportedStatus::Certified);
+    assert!(
+        augmented.distance < 1e-10 && augmented.sweeps > 5,
+        "{augmented:?}"
+    );
     // On 16 cells Gauss–Seidel converges, on 32 it does not; both to the same solution as far as
     // they come.
     let baseline = |mesh: usize| {
