@@ -123,7 +123,7 @@ fn stopped(request: &Request, solution: &Solution, solved: usize) -> Option<Stri
     let bytes = 8 * (DENSE * contact * contact + factor);
     (bytes > request.memory).then(|| {
         let [needed, most] = [bytes, request.memory].map(|bytes| bytes as f64 * 1e-9);
-        format!("the next mesh takes about {needed:.1} GB of the {most:.1} GB there are")
+        format!("the next mesh takes about {needed:.3} GB of the {most:.3} GB there are")
     })
 }
 
