@@ -129,8 +129,8 @@ fn every_parameter_of_two_bodies_changes_the_totals_as_the_scene_solved_anew() {
             assert!(derivative.falling.is_none(), "{name}: {derivative:?}");
             let [below, above] = [0, 1].map(|side| total(&reports[side], &derivative.of));
             let difference = (above - below) / (2.0 * h);
-            // Differences keep ten digits of the total, and lose half of the step's; gaps that are closed keep none.
-            let rounding = 1e-11 * below.abs() / h + 1e-12;
+            // Differences lose the digits of the step, of totals that have twelve, and of lengths as large as the bodies.
+            let rounding = (1e-12 * below.abs() + 3.0 * f64::EPSILON) / h;
             let off = (derivative.growing - difference).abs();
             assert!(
                 off <= 1e-6 * difference.abs() + rounding,
