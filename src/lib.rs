@@ -63,6 +63,7 @@ pub mod limit;
 pub mod mesh_file;
 mod pipeline;
 pub mod problem;
+mod random;
 pub mod report;
 pub mod scene;
 #[cfg(feature = "cli")]

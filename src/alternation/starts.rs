@@ -9,6 +9,7 @@ use super::condition::times;
 use super::{Outcome, Settings, Status, solve_from};
 use crate::error::Error;
 use crate::problem::ContactProblem;
+use crate::random::Random;
 
 /// States whose displacements differ by less than this, relative to what the reactions move, are one.
 const SAME: f64 = 1e-6;
@@ -130,17 +131,4 @@ fn stuck(problem: &ContactProblem) -> Option<Vec<f64>> {
     }
     let reaction = times(problem.operator().stiffness()?, &back);
     Some(reaction.iter().copied().collect())
-}
-
-/// Numbers that look random, by xorshift (Marsaglia, J. Stat. Softw. 8 (2003) no. 14).
-struct Random(u64);
-
-impl Random {
-    /// In [0, 1).
-    fn part(&mut self) -> f64 {
-        for (left, by) in [(true, 13), (false, 7), (true, 17)] {
-            self.0 ^= if left { self.0 << by } else { self.0 >> by };
-        }
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
 }

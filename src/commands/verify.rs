@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::verify::{Reach, hard_cases};
+use dpana::verify::{Reach, hard_cases, metamorphic};
 
 use super::outputs::{check_writable, say, write_output};
 
@@ -20,6 +20,17 @@ pub(crate) struct Verify {
     /// Solve only those with the most contacts: minutes, and gigabytes of memory.
     #[arg(long, conflicts_with = "quick")]
     largest: bool,
+    /// Solve this many random scenes, and each again after every change that must not change its answer.
+    #[arg(long, value_name = "SCENES", conflicts_with_all = ["quick", "hard", "largest"])]
+    metamorphic: Option<usize>,
+    /// First of the random scenes.
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 1,
+        requires = "metamorphic"
+    )]
+    seed: u64,
     /// Write every number to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -31,6 +42,9 @@ pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     }
     if arguments.hard || arguments.largest {
         return hard(arguments);
+    }
+    if let Some(scenes) = arguments.metamorphic {
+        return what_must_not_change(arguments, scenes);
     }
     let verification = dpana::verify(arguments.quick)?;
     if let Some(path) = &arguments.report {
@@ -58,6 +72,21 @@ fn hard(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     }
     say(&arguments.report, solved.summary().trim_end())?;
     Ok(ended(solved.passed))
+}
+
+fn what_must_not_change(arguments: &Verify, scenes: usize) -> Result<ExitCode, Box<dyn Error>> {
+    let mut told = Ok(());
+    let battery = metamorphic(arguments.seed, scenes, |wrong| {
+        if told.is_ok() {
+            told = say(&arguments.report, wrong);
+        }
+    })?;
+    told?;
+    if let Some(path) = &arguments.report {
+        write_output(path, &battery.to_json())?;
+    }
+    say(&arguments.report, battery.summary().trim_end())?;
+    Ok(ended(battery.passed))
 }
 
 fn ended(passed: bool) -> ExitCode {

@@ -36,6 +36,8 @@ mod half_space;
 #[cfg(feature = "cli")]
 mod hard;
 mod limit;
+#[cfg(feature = "cli")]
+mod metamorphic;
 mod motion;
 mod notes;
 #[cfg(feature = "cli")]
@@ -75,6 +77,8 @@ pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
 pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
+#[cfg(feature = "cli")]
+pub use metamorphic::{MetamorphicBattery, MetamorphicChange};
 pub use motion::ReportedMotion;
 pub(crate) use motion::{motions, significant};
 #[cfg(feature = "cli")]

@@ -8,8 +8,9 @@ use crate::rust_words::{tokens, without_tests};
 
 /// A module and what it may import of ours; `main` with its `commands` and `python`, a package of its
 /// own, are users of the public API.
-const MAY_IMPORT: [(&str, &[&str]); 22] = [
+const MAY_IMPORT: [(&str, &[&str]); 23] = [
     ("error", &[]),
+    ("random", &[]),
     ("closed_forms", &["error"]),
     ("body", &["error"]),
     ("mesh_file", &["body", "error"]),
@@ -23,7 +24,10 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
         "kkt",
         &["body", "contact", "problem", "condensation", "error"],
     ),
-    ("alternation", &["problem", "cone", "limit", "kkt", "error"]),
+    (
+        "alternation",
+        &["problem", "cone", "limit", "kkt", "random", "error"],
+    ),
     (
         "report",
         &[
@@ -82,6 +86,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "kkt",
             "pipeline",
             "report",
+            "random",
             "scene",
             "error",
         ],

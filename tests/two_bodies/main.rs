@@ -15,6 +15,7 @@ mod fits;
 mod floating;
 mod goodman_coupled;
 mod hertz;
+#[cfg(feature = "cli")]
 mod metamorphic;
 mod patch;
 mod quadratic;
