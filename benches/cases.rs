@@ -77,7 +77,7 @@ fn row(name: &str, scene: &Scene, variations: &[Variation]) -> Result<(), Box<dy
 /// What the sweep does, on a scene of its own.
 fn put(scene: &mut Scene, name: &str, value: f64) {
     match name {
-        "friction" => scene.contacts[0].friction = value,
+        "friction" => scene.contacts[0].friction = Some(value),
         "bodies[0].loads[1]" => {
             if let SceneLoad::Pressure { pressure, .. } = &mut scene.bodies[0].loads[1] {
                 *pressure *= value;

@@ -1,11 +1,17 @@
-//! Rough surfaces on ever finer grids: with friction to 1e-10, and without to 1e-10.
+//! Rough surfaces on ever finer grids: with friction to 1e-10, and without to 1e-10; then one application on
+//! a padded grid beside the one-dimensional transforms in it, each in a buffer of its own.
 //!
 //! `cargo bench --bench half_space [-- --quick]`
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
+use std::fs;
 use std::sync::Arc;
 use std::time::Instant;
+
+use realfft::RealFftPlanner;
+use rustfft::FftPlanner;
+use rustfft::num_complex::Complex;
 
 use dpana::half_space::{
     Drag, ElasticHalf, Grid, HalfSpace, HalfSpaceProblem, Press, SelfAffine, Surroundings,
@@ -28,7 +34,78 @@ fn main() -> Result<(), Box<dyn Error>> {
             start.elapsed().as_secs_f64(),
         );
     }
+    for n in if quick {
+        vec![64]
+    } else {
+        vec![256, 512, 1024]
+    } {
+        let [whole, alone] = application(n)?;
+        println!(
+            "{n:>4}² padded, processor ms: application {whole:.1}, transforms alone {alone:.1}, ratio {:.2}",
+            whole / alone
+        );
+    }
     Ok(())
+}
+
+/// Processor time of one application with padding, and of its one-dimensional transforms, in ms.
+fn application(n: usize) -> Result<[f64; 2], Box<dyn Error>> {
+    let material = ElasticHalf {
+        young: 1.0,
+        poisson: 0.3,
+    };
+    let grid = Grid::new([n, n], [1.0 / n as f64; 2])?;
+    let operator = HalfSpace::new(grid, Surroundings::Free, material, None)?;
+    let force = grid.sample(|[x, y]| (9.0 * x + y).sin());
+    let rounds = (4 << 20) / (n * n) + 1;
+    operator.apply([&force, &force, &force])?;
+    let start = processor()?;
+    for _ in 0..rounds {
+        operator.apply([&force, &force, &force])?;
+    }
+    let middle = processor()?;
+    for _ in 0..rounds {
+        transforms(n, 2 * n)?;
+    }
+    let end = processor()?;
+    Ok([middle - start, end - middle].map(|seconds| 1e3 * seconds / rounds as f64))
+}
+
+/// Three fields of `n` rows there and back, padded to `m` by `m`: rows, columns, columns back, rows back.
+fn transforms(n: usize, m: usize) -> Result<(), Box<dyn Error>> {
+    let (mut rows, mut columns) = (RealFftPlanner::<f64>::new(), FftPlanner::<f64>::new());
+    let (there, back) = (rows.plan_fft_forward(m), rows.plan_fft_inverse(m));
+    let (mut row, mut waves) = (there.make_input_vec(), there.make_output_vec());
+    let (forward, inverse) = (columns.plan_fft_forward(m), columns.plan_fft_inverse(m));
+    let mut column = vec![Complex::default(); m];
+    let lengths = [
+        forward.get_inplace_scratch_len(),
+        there.get_scratch_len(),
+        back.get_scratch_len(),
+    ];
+    let mut scratch = vec![Complex::default(); lengths.into_iter().fold(m, usize::max)];
+    for _ in 0..3 * n {
+        there.process_with_scratch(&mut row, &mut waves, &mut scratch)?;
+        back.process_with_scratch(&mut waves, &mut row, &mut scratch)?;
+    }
+    for _ in 0..3 * (m / 2 + 1) {
+        forward.process_with_scratch(&mut column, &mut scratch);
+        inverse.process_with_scratch(&mut column, &mut scratch);
+    }
+    Ok(())
+}
+
+/// Processor time of this process so far, in second; where the system does not tell it, none passes.
+fn processor() -> Result<f64, Box<dyn Error>> {
+    let text = fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    let fields = text
+        .rsplit(')')
+        .next()
+        .unwrap_or_default()
+        .split_whitespace();
+    let ticks = fields.skip(11).take(2).map(str::parse::<f64>);
+    let ticks: Vec<f64> = ticks.collect::<Result<_, _>>()?;
+    Ok(ticks.iter().sum::<f64>() / 100.0)
 }
 
 /// H = 0.8, roll-off 8 waves, cut-off n/8, slope 0.1, mean pressure 0.01 E*, sheared.

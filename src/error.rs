@@ -19,6 +19,44 @@ pub enum Error {
         accepted: &'static str,
     },
 
+    /// A value that a total takes nowhere in a range.
+    #[error(
+        "{place}: no value between {from} and {to} gives {target}; the totals seen there run from {lowest} to \
+         {highest}"
+    )]
+    OutOfReach {
+        /// Parameter and total, such as `friction, normal`.
+        place: String,
+        /// Where the range begins.
+        from: f64,
+        /// Where it ends.
+        to: f64,
+        /// The value that was asked for.
+        target: f64,
+        /// Least total that was seen.
+        lowest: f64,
+        /// Largest total that was seen.
+        highest: f64,
+    },
+
+    /// A total that jumps over the value it should take.
+    #[error(
+        "{place}: at {at} the total jumps from {below} to {above} and never is {target}; expected a total \
+         that changes without jumps, which areas and counts do not"
+    )]
+    Jumps {
+        /// Parameter and total, such as `friction, contact_area`.
+        place: String,
+        /// Where it jumps.
+        at: f64,
+        /// On one side.
+        below: f64,
+        /// On the other.
+        above: f64,
+        /// The value that was asked for.
+        target: f64,
+    },
+
     /// A NaN or an infinity.
     #[error("{place}: {value} is not a finite number")]
     NotFinite {
@@ -50,8 +88,10 @@ pub enum Error {
         accepted: &'static str,
     },
 
-    /// A sphere in front of a 2D body.
-    #[error("{place}: a sphere cannot touch a 2D body; expected a plane or a cylinder")]
+    /// A shape in front of a body of another dimension, such as a sphere of a 2D body.
+    #[error(
+        "{place}: a shape of another dimension than its body's; expected one that lives there, as planes do"
+    )]
     ObstacleDimension {
         /// The obstacle, such as `contacts[0].obstacle`.
         place: String,
@@ -147,7 +187,7 @@ pub enum Error {
     /// A contact node with friction is moved along the obstacle by a support.
     #[error(
         "{place}: node {node} at {position:?} has friction {friction} and a support moves it \
-         by {displacement} along {axis}; expected 0 there, or no friction"
+         by {displacement} along {axis}; expected 0 there, no friction, or `dragged`: true of the contact if it is meant to slip"
     )]
     DraggedContact {
         /// The contact pair, such as `contacts[0]`.

@@ -24,6 +24,7 @@
 //! | cone programs | [`cone`] | the two half-steps, normal and friction |
 //! | limit analysis | [`limit`](mod@limit) | whether contact can hold the bodies at all |
 //! | outer loop | [`alternation`] | reactions, by sweeps and a Newton finish |
+//! | trust | [`trust`] | what a solved state is worth: other states, jumps, limits |
 //! | half-space | [`half_space`] | a contact per cell of a grid, by convolution, with loop and judge of its own |
 //! | judge | [`kkt`] | the [`Certificate`]: every law, measured on the original problem |
 //! | report | [`report`] | JSON, VTU, a summary |
@@ -42,7 +43,10 @@
 //! | meshes and arrays in memory | [`Scene::new`], [`body::Mesh::from_arrays`], [`solve`] |
 //! | a condensed problem of another code | [`ContactProblem`], [`alternation::solve`](alternation::solve()) |
 //! | a load history | [`solve_steps`] |
+//! | the question how wrong the mesh leaves a total | [`solve_within`] |
 //! | many values of friction, loads, gaps | [`cases`] |
+//! | the question what a little more of anything does | [`Solution::sensitivities`] |
+//! | a measured total, and the friction or load wanted that gives it | [`find`] |
 //! | the question how much load or friction it takes | [`limit`](limit()) |
 //! | the question what theory says | [`closed_forms`] |
 //!
@@ -63,10 +67,13 @@ pub mod limit;
 pub mod mesh_file;
 mod pipeline;
 pub mod problem;
+mod random;
 pub mod report;
 pub mod scene;
+pub mod stage;
 #[cfg(feature = "cli")]
 pub mod study;
+pub mod trust;
 pub mod validity;
 #[cfg(feature = "cli")]
 pub mod verify;
@@ -75,8 +82,9 @@ pub use alternation::{Outcome, Settings, Status};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{
-    Acting, BodyStress, Checked, Measured, Solution, SolvedStep, Variation, cases, cases_watched,
-    check, limit, solve, solve_half_space, solve_steps,
+    Acting, BodyStress, Checked, Measured, Request, Search, Solution, SolvedStep, Variation, cases,
+    cases_watched, check, find, half_space_cases, limit, rigid_limit, solve, solve_half_space,
+    solve_steps, solve_within,
 };
 pub use problem::ContactProblem;
 pub use scene::Scene;

@@ -1,4 +1,4 @@
-//! The command line: solve, cases, limit, half-space, study, check, import, schema, verify, and
+//! The command line: solve, cases, find, limit, half-space, study, check, new, import, schema, verify, and
 //! completions and manual pages for itself.
 
 mod commands;
@@ -9,7 +9,10 @@ use std::process::ExitCode;
 
 use clap::{CommandFactory, Parser, Subcommand};
 
-use commands::{Cases, Check, Completions, HalfSpace, Import, Limit, Man, Solve, Study, Verify};
+use commands::{
+    Cases, Check, Completions, Find, HalfSpace, Import, Limit, Man, New, Schema, Solve, Study,
+    Verify,
+};
 
 /// Certified frictional contact of elastic bodies.
 ///
@@ -38,6 +41,9 @@ enum Command {
     /// factorisation.
     #[command(alias = "sweep")]
     Cases(Cases),
+    /// Find the friction, load, gap or obstacle position at which a total has a given value, such as
+    /// one that was measured.
+    Find(Find),
     /// Say by what factor each load can grow before nothing holds the bodies that only
     /// contact holds, and how much friction they take.
     Limit(Limit),
@@ -48,10 +54,12 @@ enum Command {
     Study(Study),
     /// Read a scene and its meshes and say what is wrong, without solving.
     Check(Check),
+    /// Write a starter scene for a mesh file, with its groups filled in and comments on what to change.
+    New(New),
     /// Turn an Abaqus or CalculiX deck into a scene and Gmsh meshes.
     Import(Import),
     /// Print the JSON Schema of scenes.
-    Schema,
+    Schema(Schema),
     /// Compute scenes whose answers are known, and say by how much they miss them.
     Verify(Verify),
     /// Print the script that lets a shell complete commands and options.
@@ -87,12 +95,14 @@ fn run(command: Command) -> Result<ExitCode, Box<dyn Error>> {
     match command {
         Command::Solve(arguments) => commands::solve(&arguments),
         Command::Cases(arguments) => commands::cases(&arguments),
+        Command::Find(arguments) => commands::find(&arguments),
         Command::Limit(arguments) => commands::limit(&arguments),
         Command::HalfSpace(arguments) => commands::half_space(&arguments),
         Command::Study(arguments) => commands::study(&arguments),
         Command::Check(arguments) => commands::check(&arguments),
+        Command::New(arguments) => commands::new(&arguments),
         Command::Import(arguments) => commands::import(&arguments),
-        Command::Schema => commands::schema(),
+        Command::Schema(arguments) => commands::schema(&arguments),
         Command::Verify(arguments) => commands::verify(&arguments),
         Command::Completions(arguments) => {
             commands::completions(&arguments, CommandLine::command())

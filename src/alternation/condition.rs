@@ -111,7 +111,7 @@ fn is_odd(permutation: &[usize]) -> bool {
 }
 
 /// `A x`, on one thread: several would add up in their own order.
-pub(super) fn times(matrix: &Mat<f64>, vector: &Col<f64>) -> Col<f64> {
+pub(crate) fn times(matrix: &Mat<f64>, vector: &Col<f64>) -> Col<f64> {
     let mut product = Col::zeros(matrix.nrows());
     matmul(
         product.as_mut(),

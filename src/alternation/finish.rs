@@ -9,7 +9,12 @@
 //! (D4)   stick    ‖p_T‖ ≤ −μ p_N         u_N = g₀,  u_T = 0
 //!        slip     ‖p_T‖ > −μ p_N         u_N = g₀,  (1 − M) t_T + μ d t_N + ρ M u_T = 0
 //!                                        d = p_T/‖p_T‖,   M = γ (1 − d dᵀ),   γ = −μ p_N/‖p_T‖
+//! ```
 //!
+//! With another law `s` of problem::L5 stands for −μ p_N, and a contact that is open, but for a bound without
+//! pressure, has the tangents of stick or slip; one that is bilateral is never open.
+//!
+//! ```text
 //! (D5)   u = û + G t + σ C (t − t_k) + R α,      Rᵀ t + e = σ (α − α_k)
 //! ```
 //!
@@ -18,13 +23,11 @@
 //! motion (R orthonormal in ρ), anchored where the proximal loop is. All is scaled to `t/√ρ` and `√ρ u`:
 //! no unit and no size of a contact is seen.
 
-use std::ops::Range;
-
 use faer::{Col, Mat};
 
 use super::condition::Factored;
 use super::iterate::{Iterate, Motion};
-use super::laws::{Law, Local, roots};
+use super::laws::{self, Law, Local, roots};
 use crate::problem::ContactProblem;
 use crate::problem::velocity_basis::VelocityBasis;
 
@@ -50,7 +53,7 @@ pub(super) struct Springs<'a> {
 pub(super) struct Finish<'a> {
     problem: &'a ContactProblem,
     /// √ρ per unknown.
-    roots: Vec<f64>,
+    pub(super) roots: Vec<f64>,
     rigid: Option<Rigid>,
     last: Option<Factored>,
 }
@@ -103,8 +106,14 @@ impl<'a> Finish<'a> {
     pub(super) fn moved(&self, motion: &Motion, drift: &[f64]) -> Motion {
         match &self.rigid {
             None => Motion::default(),
-            Some(rigid) => motion.plus(&rigid.basis.amplitudes(drift)),
+            Some(_) => motion.plus(&self.amplitudes(drift)),
         }
+    }
+
+    /// A drift, in amplitudes of the free modes.
+    pub(super) fn amplitudes(&self, drift: &[f64]) -> Vec<f64> {
+        let rigid = self.rigid.as_ref();
+        rigid.map_or_else(Vec::new, |rigid| rigid.basis.amplitudes(drift))
     }
 
     /// What a state misses of the laws, as the root of an energy.
@@ -143,7 +152,7 @@ impl<'a> Finish<'a> {
         let laws: Vec<Law> = (0..self.problem.contacts())
             .filter_map(|contact| {
                 let local = self.local(contact, &from.reaction, seen, springs);
-                local.law(contact, self.block(contact))
+                local.law(contact, self.problem.block(contact))
             })
             .collect();
         let mut next = self.opened(from, &laws);
@@ -154,29 +163,34 @@ impl<'a> Finish<'a> {
         if !solution.iter().all(|x| x.is_finite()) {
             return None;
         }
+        self.add(&mut next, &unknowns, &solution);
+        Some(next)
+    }
+
+    /// Adds scaled reactions at unknowns, and a drift behind them.
+    pub(super) fn add(&self, point: &mut Point, unknowns: &[usize], solution: &Col<f64>) {
         for (&unknown, scaled) in unknowns.iter().zip(solution.iter()) {
-            self.push(&mut next, unknown, self.roots[unknown] * scaled);
+            self.push(point, unknown, self.roots[unknown] * scaled);
         }
         if let Some(rigid) = &self.rigid {
             let drift = solution.iter().skip(unknowns.len());
             for (k, along) in drift.enumerate() {
-                next.drift[k] += along;
-                add(&mut next.beyond, *along, rigid.velocities.col_as_slice(k));
+                point.drift[k] += along;
+                add(&mut point.beyond, *along, rigid.velocities.col_as_slice(k));
             }
         }
-        Some(next)
+    }
+
+    /// A load on the free modes, along the velocities.
+    pub(super) fn along(&self, load: &[f64]) -> Vec<f64> {
+        let rigid = self.rigid.as_ref();
+        rigid.map_or_else(Vec::new, |rigid| rigid.basis.load(load))
     }
 
     /// How far a point is from (D4) and (D5), as the root of an energy: sizes of the contacts do not weigh.
     pub(super) fn residual(&self, at: &Point, springs: Springs<'_>) -> f64 {
-        let mut residual = 0.0_f64;
-        for contact in 0..self.problem.contacts() {
-            let defect = self.local(contact, &at.reaction, &at.beyond, springs);
-            let count = self.block(contact).len();
-            residual = defect.defect()[..count]
-                .iter()
-                .fold(residual, |sum, r| sum.hypot(*r));
-        }
+        let local = |contact| self.local(contact, &at.reaction, &at.beyond, springs);
+        let residual = laws::residual(self.problem, local);
         let softer = (1.0 + springs.softness).sqrt();
         let rest = self.imbalance(at, springs.softness);
         rest.iter().fold(residual, |sum, e| sum.hypot(e / softer))
@@ -201,12 +215,8 @@ impl<'a> Finish<'a> {
         self.rigid.as_ref().map_or(0, |rigid| rigid.load.len())
     }
 
-    fn block(&self, contact: usize) -> Range<usize> {
-        self.problem.offsets()[contact]..self.problem.offsets()[contact + 1]
-    }
-
     /// A contact under springs.
-    fn local(
+    pub(super) fn local(
         &self,
         contact: usize,
         reaction: &[f64],
@@ -216,10 +226,10 @@ impl<'a> Finish<'a> {
         let mut local = Local {
             reaction: [0.0; 3],
             beyond: [0.0; 3],
-            friction: self.friction(contact),
+            limits: laws::scaled_limits(self.problem, &self.roots, contact),
             step: (1.0 + springs.softness).recip(),
         };
-        for (k, unknown) in self.block(contact).enumerate() {
+        for (k, unknown) in self.problem.block(contact).enumerate() {
             let (t, root) = (reaction[unknown], self.roots[unknown]);
             let spring = springs.softness * (t - springs.anchor[unknown]) / root;
             local.reaction[k] = t / root;
@@ -228,10 +238,10 @@ impl<'a> Finish<'a> {
         local
     }
 
-    /// μ between scaled reactions.
-    fn friction(&self, contact: usize) -> f64 {
-        match self.roots[self.block(contact)] {
-            [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
+    /// By what a coefficient is larger between scaled reactions; 0 where there is no tangent.
+    pub(super) fn shape(&self, contact: usize) -> f64 {
+        match self.roots[self.problem.block(contact)] {
+            [normal, tangential, ..] => normal / tangential,
             _ => 0.0,
         }
     }
@@ -242,7 +252,7 @@ impl<'a> Finish<'a> {
         let mut pressed = laws.iter().map(|law| law.contact).peekable();
         for contact in 0..self.problem.contacts() {
             if pressed.next_if_eq(&contact).is_none() {
-                for unknown in self.block(contact) {
+                for unknown in self.problem.block(contact) {
                     self.push(&mut next, unknown, -from.reaction[unknown]);
                     next.reaction[unknown] = 0.0;
                 }
@@ -261,23 +271,24 @@ impl<'a> Finish<'a> {
     }
 
     /// Matrix of (D4) with (D5): reactions of contacts that are not open, then rigid motions.
-    fn matrix(&self, laws: &[Law], unknowns: &[usize], softness: f64) -> Mat<f64> {
+    pub(super) fn matrix(&self, laws: &[Law], unknowns: &[usize], softness: f64) -> Mat<f64> {
         let (reactions, motions) = (unknowns.len(), self.velocities());
         let mut matrix = Mat::zeros(reactions + motions, reactions + motions);
         for (j, &unknown) in unknowns.iter().enumerate() {
             let moved = self.problem.compliance().col_as_slice(unknown);
-            self.column(
-                laws,
-                Some((unknown, softness)),
-                moved,
-                matrix.col_as_slice_mut(j),
-            );
+            let scale = self.roots[unknown];
+            let moved = |k: usize| self.roots[k] * moved[k] * scale;
+            let rows = laws::rows(laws, moved, Some((unknown, softness)));
+            fill(matrix.col_as_slice_mut(j), rows);
         }
         if let Some(rigid) = &self.rigid {
             for k in 0..motions {
                 let velocity = rigid.velocities.col_as_slice(k);
                 let column = matrix.col_as_slice_mut(reactions + k);
-                self.column(laws, None, velocity, column);
+                fill(
+                    column,
+                    laws::rows(laws, |k| self.roots[k] * velocity[k], None),
+                );
                 column[reactions + k] = -softness;
                 for (j, &unknown) in unknowns.iter().enumerate() {
                     matrix[(reactions + k, j)] = velocity[unknown] * self.roots[unknown];
@@ -287,39 +298,18 @@ impl<'a> Finish<'a> {
         matrix
     }
 
-    /// Rows of all laws for something that moves the contacts: a reaction, with its spring, or a rigid motion.
-    fn column(&self, laws: &[Law], pushed: Option<(usize, f64)>, moved: &[f64], into: &mut [f64]) {
-        let (pushed, softness) = pushed.map_or((usize::MAX, 0.0), |pushed| pushed);
-        let scale = self.roots.get(pushed).copied().unwrap_or(1.0);
-        let mut rows = into.iter_mut();
-        for law in laws {
-            let mut local = [0.0; 3];
-            for (local, k) in local.iter_mut().zip(law.block.clone()) {
-                *local = self.roots[k] * moved[k] * scale;
-            }
-            let own = law.block.clone().position(|k| k == pushed);
-            if let Some(own) = own {
-                local[own] += softness;
-            }
-            for (entry, value) in rows
-                .by_ref()
-                .take(law.block.len())
-                .zip(law.rows(local, own))
-            {
-                *entry = value;
-            }
-        }
-    }
-
     /// Minus the residual of (D4) and (D5).
     fn right_side(&self, laws: &[Law], at: &Point, springs: Springs<'_>) -> Col<f64> {
-        let contacts = laws.iter().flat_map(|law| {
-            let local = self.local(law.contact, &at.reaction, &at.beyond, springs);
-            law.missing(&local).into_iter().take(law.block.len())
-        });
-        let rest = self.imbalance(at, springs.softness);
-        contacts.chain(rest.into_iter().map(|e| -e)).collect()
+        let local = |contact| self.local(contact, &at.reaction, &at.beyond, springs);
+        let rest = self.imbalance(at, springs.softness).into_iter();
+        laws::missing(laws, local).chain(rest.map(|e| -e)).collect()
     }
+}
+
+/// The first entries of a column.
+fn fill(column: &mut [f64], rows: impl Iterator<Item = f64>) {
+    let entries = column.iter_mut().zip(rows);
+    entries.for_each(|(entry, value)| *entry = value);
 }
 
 fn add(sum: &mut [f64], by: f64, column: &[f64]) {

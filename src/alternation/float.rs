@@ -14,7 +14,7 @@ use super::{Failure, Shortfall};
 use crate::cone::CoulombProgram;
 use crate::kkt;
 use crate::limit::{Equilibrium, RigidContacts};
-use crate::problem::Floating;
+use crate::problem::{Floating, Law};
 
 /// The judge believes a failing motion that would take reactions of more than this times the load.
 const IMPOSSIBLE: f64 = 1e3;
@@ -29,7 +29,9 @@ impl Run<'_> {
         let Some(floating) = self.problem.floating() else {
             return;
         };
-        if self.is_solved() || self.work.sweeps > 1 {
+        let laws = self.problem.laws().unwrap_or_default();
+        let bounded = laws.iter().all(Law::is_within_coulomb);
+        if self.is_solved() || self.work.sweeps > 1 || !bounded {
             return;
         }
         let start = Instant::now();
@@ -44,6 +46,10 @@ impl Run<'_> {
 
     /// (H8) with the equilibrium of the bodies that float.
     pub(super) fn coulomb_program(&mut self, floating: &Floating) {
+        // Other laws are no such cones; the proximal loop finds its way from rest.
+        if self.problem.laws().is_some() {
+            return;
+        }
         let start = Instant::now();
         let none = vec![0.0; self.problem.contacts()];
         let program = CoulombProgram::new(self.problem, floating.modes());
@@ -116,6 +122,9 @@ impl Run<'_> {
     /// What the judge finds of a motion.
     fn proof(&self, floating: &Floating, motion: &[f64]) -> Option<kkt::Impossibility> {
         let (offsets, friction) = (self.problem.offsets(), self.problem.friction());
+        if self.problem.laws().is_some() {
+            return kkt::impossibility_under_laws(self.problem, floating, motion).ok();
+        }
         kkt::impossibility(offsets, friction, floating.modes(), floating.load(), motion).ok()
     }
 }

@@ -8,6 +8,8 @@
 //!                                    λ: largest eigenvalue of the contact's G_TT
 //! ```
 //!
+//! Laws of contact beyond Coulomb's have other radii; a bilateral contact no `min`.
+//!
 //! Jourdan, Alart, Jean, Comput. Methods Appl. Mech. Eng. 155 (1998) 31–47.
 
 use crate::problem::ContactProblem;
@@ -80,8 +82,11 @@ impl<'a> GaussSeidel<'a> {
         };
         let step = &self.steps[contact];
         let penetration = displacement(n, reaction) - problem.initial_gap()[contact];
-        reaction[n] = (reaction[n] - step.normal * penetration).min(0.0);
-        let bound = -problem.friction()[contact] * reaction[n];
+        reaction[n] -= step.normal * penetration;
+        if !problem.is_bilateral(contact) {
+            reaction[n] = reaction[n].min(0.0);
+        }
+        let bound = problem.friction_bound(contact, reaction[n]);
         let trial: [f64; 2] = std::array::from_fn(|axis| {
             let unknown = n + 1 + axis;
             if unknown < end && bound > 0.0 {

@@ -2,70 +2,184 @@
 
 use std::ops::Range;
 
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Limits};
 
 /// A diagonal entry of G below this part of the largest is round-off.
 const NOTHING: f64 = f64::EPSILON;
 
 /// A contact's reaction and its displacement beyond what is free, normal first.
+#[derive(Clone, Copy)]
 pub(super) struct Local {
     pub(super) reaction: [f64; 3],
     pub(super) beyond: [f64; 3],
-    /// μ between scaled reactions.
-    pub(super) friction: f64,
+    /// Of friction, between scaled reactions.
+    pub(super) limits: Limits,
     /// Length of the step to the trial point: 1/(1 + σ).
     pub(super) step: f64,
 }
 
 /// What a contact does, read off its trial point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum State {
-    Open,
+struct State {
+    /// Its gap is closed; open, it has tangents only where friction needs no pressure.
+    closed: bool,
+    tangents: Tangents,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Tangents {
+    /// No friction is possible without pressure.
+    Free,
     Stick,
     Slip {
         direction: [f64; 2],
         bound: f64,
         /// γ, below one.
         ratio: f64,
+        /// The bound is `constant − slope t_N`.
+        slope: f64,
+        constant: f64,
     },
 }
 
-/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = 0`, a row per unknown.
+/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = known`, a row per unknown.
+#[derive(Clone)]
 pub(super) struct Law {
     pub(super) contact: usize,
     pub(super) block: Range<usize>,
     on_reaction: [[f64; 3]; 3],
     on_displacement: [[f64; 3]; 3],
+    known: [f64; 3],
+    /// What more of μ asks for.
+    on_friction: [f64; 3],
+}
+
+/// A contact that may do one thing or another next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Edge {
+    /// Neither pressed nor apart; with the direction of the friction that it would have, if it slides.
+    Touching(Option<[f64; 2]>),
+    /// Friction along this direction is all that its bound allows, and nothing slides.
+    Verge([f64; 2]),
+}
+
+impl Edge {
+    /// The law by which its rates go on; none if it opens. `rates` are those of a trial, `shrinking` what its bound
+    /// loses as μ changes.
+    pub(super) fn law(
+        self,
+        rates: &Local,
+        shrinking: f64,
+        (contact, block): (usize, Range<usize>),
+        pressing: f64,
+    ) -> Option<Law> {
+        let friction = rates.limits.friction;
+        let trial = [0, 1, 2].map(|k| rates.reaction[k] - rates.beyond[k]);
+        let state = match self {
+            Self::Touching(_) if trial[0] >= 0.0 => State::OPEN,
+            Self::Touching(None) => rates.state(),
+            Self::Touching(Some(direction)) => State::slip(direction, 0.0, friction),
+            Self::Verge(direction) => {
+                let along = direction[0] * trial[1] + direction[1] * trial[2];
+                match along + friction * rates.reaction[0] + shrinking > 0.0 {
+                    true => State::slip(direction, 1.0, friction),
+                    false => State::STICK,
+                }
+            }
+        };
+        let pressed = Local {
+            reaction: [pressing, 0.0, 0.0],
+            ..*rates
+        };
+        pressed.law_of(state, contact, block)
+    }
+}
+
+impl State {
+    const OPEN: Self = Self {
+        closed: false,
+        tangents: Tangents::Free,
+    };
+    const STICK: Self = Self {
+        closed: true,
+        tangents: Tangents::Stick,
+    };
+
+    /// Slip where the bound is not asked for.
+    fn slip(direction: [f64; 2], ratio: f64, friction: f64) -> Self {
+        let tangents = Tangents::Slip {
+            direction,
+            bound: 0.0,
+            ratio,
+            slope: friction,
+            constant: 0.0,
+        };
+        Self {
+            closed: true,
+            tangents,
+        }
+    }
 }
 
 impl Local {
+    /// The edge on which the contact is, within a `tolerance` for what it carries and where it is.
+    pub(super) fn edge(&self, tolerance: f64) -> Option<Edge> {
+        let small = |x: f64| x.abs() <= tolerance;
+        let (t, w) = (self.reaction, self.beyond);
+        let (friction, slip) = (t[1].hypot(t[2]), w[1].hypot(w[2]));
+        if small(t[0]) && small(w[0]) {
+            let slides = slip > tolerance;
+            return Some(Edge::Touching(slides.then(|| [-w[1] / slip, -w[2] / slip])));
+        }
+        let bound = -self.limits.friction * t[0];
+        let verge = bound > tolerance && small(friction - bound) && small(slip);
+        verge.then(|| Edge::Verge([t[1] / friction, t[2] / friction]))
+    }
+
     fn state(&self) -> State {
         let trial = [0, 1, 2].map(|k| self.reaction[k] - self.step * self.beyond[k]);
-        if trial[0] >= 0.0 {
-            return State::Open;
+        let limits = &self.limits;
+        let closed = limits.bilateral || trial[0] < 0.0;
+        let (size, bound) = (trial[1].hypot(trial[2]), limits.bound(trial[0]));
+        if !closed && bound == 0.0 {
+            return State {
+                closed,
+                tangents: Tangents::Free,
+            };
         }
-        let (size, bound) = (trial[1].hypot(trial[2]), -self.friction * trial[0]);
-        if self.friction > 0.0 && size <= bound {
-            return State::Stick;
+        let rough = limits.friction > 0.0 || limits.shear > 0.0;
+        if rough && size <= bound {
+            return State {
+                closed,
+                tangents: Tangents::Stick,
+            };
         }
         let size = if size > 0.0 { size } else { 1.0 };
-        State::Slip {
-            direction: [trial[1] / size, trial[2] / size],
-            bound,
-            ratio: bound / size,
+        let slope = limits.slope(trial[0]);
+        State {
+            closed,
+            tangents: Tangents::Slip {
+                direction: [trial[1] / size, trial[2] / size],
+                bound,
+                ratio: bound / size,
+                slope,
+                constant: bound + slope * trial[0],
+            },
         }
     }
 
     /// What the natural map leaves, per unknown, as roots of an energy.
     pub(super) fn defect(&self) -> [f64; 3] {
         let (t, w) = (self.reaction, self.beyond.map(|w| self.step * w));
-        let left = match self.state() {
-            State::Open => t,
-            State::Stick => w,
-            State::Slip {
+        let state = self.state();
+        let normal = if state.closed { w[0] } else { t[0] };
+        let left = match state.tangents {
+            Tangents::Free => t,
+            Tangents::Stick => [normal, w[1], w[2]],
+            Tangents::Slip {
                 direction, bound, ..
             } => [
-                w[0],
+                normal,
                 t[1] - bound * direction[0],
                 t[2] - bound * direction[1],
             ],
@@ -75,20 +189,38 @@ impl Local {
 
     /// The law of what a contact does; none if it is open.
     pub(super) fn law(&self, contact: usize, block: Range<usize>) -> Option<Law> {
+        self.law_of(self.state(), contact, block)
+    }
+
+    fn law_of(&self, state: State, contact: usize, block: Range<usize>) -> Option<Law> {
+        let mut on_friction = [0.0; 3];
         let (mut on_reaction, mut on_displacement) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        on_displacement[0][0] = 1.0;
-        match self.state() {
-            State::Open => return None,
-            State::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
-            State::Slip {
-                direction, ratio, ..
+        let mut known = [0.0; 3];
+        match state.closed {
+            true => on_displacement[0][0] = 1.0,
+            false => on_reaction[0][0] = 1.0,
+        }
+        match state.tangents {
+            Tangents::Free => return None,
+            Tangents::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
+            Tangents::Slip {
+                direction,
+                ratio,
+                slope,
+                constant,
+                ..
             } => {
+                on_friction = [0, 1, 2].map(|k| match k {
+                    0 => 0.0,
+                    k => direction[k - 1] * self.reaction[0],
+                });
                 for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let unit = if a == b { 1.0 } else { 0.0 };
                     let m = ratio * (unit - direction[a] * direction[b]);
-                    on_reaction[1 + a][0] = self.friction * direction[a];
+                    on_reaction[1 + a][0] = slope * direction[a];
                     on_reaction[1 + a][1 + b] = unit - m;
                     on_displacement[1 + a][1 + b] = self.step * m;
+                    known[1 + a] = constant * direction[a];
                 }
             }
         }
@@ -97,6 +229,8 @@ impl Local {
             block,
             on_reaction,
             on_displacement,
+            known,
+            on_friction,
         })
     }
 }
@@ -106,8 +240,14 @@ impl Law {
     pub(super) fn missing(&self, at: &Local) -> [f64; 3] {
         [0, 1, 2].map(|row| {
             let forces = dot(self.on_reaction[row], at.reaction);
-            -forces - dot(self.on_displacement[row], at.beyond)
+            self.known[row] - forces - dot(self.on_displacement[row], at.beyond)
         })
+    }
+
+    /// Minus what displacements and friction that change ask of its rows.
+    pub(super) fn asked(&self, moved: [f64; 3], friction: f64) -> [f64; 3] {
+        [0, 1, 2]
+            .map(|row| -dot(self.on_displacement[row], moved) - friction * self.on_friction[row])
     }
 
     /// Its rows for a unit of something that moves the contact, and that may be one of its own reactions.
@@ -116,6 +256,65 @@ impl Law {
             let force = own.map_or(0.0, |own| self.on_reaction[row][own]);
             force + dot(self.on_displacement[row], moved)
         })
+    }
+}
+
+/// Rows of all laws for something that moves each unknown by `moved`, scaled, and that may be the own reaction of one,
+/// which moves it by so much more.
+pub(super) fn rows<'a>(
+    laws: &'a [Law],
+    moved: impl Fn(usize) -> f64 + 'a,
+    own: Option<(usize, f64)>,
+) -> impl Iterator<Item = f64> + 'a {
+    laws.iter().flat_map(move |law| {
+        let (mut local, mut place) = ([0.0; 3], None);
+        for (at, unknown) in law.block.clone().enumerate() {
+            local[at] = moved(unknown);
+            if let Some((_, more)) = own.filter(|(own, _)| *own == unknown) {
+                local[at] += more;
+                place = Some(at);
+            }
+        }
+        law.rows(local, place).into_iter().take(law.block.len())
+    })
+}
+
+/// Minus what a state leaves of all laws.
+pub(super) fn missing<'a>(
+    laws: &'a [Law],
+    local: impl Fn(usize) -> Local + 'a,
+) -> impl Iterator<Item = f64> + 'a {
+    laws.iter().flat_map(move |law| {
+        let missing = law.missing(&local(law.contact)).into_iter();
+        missing.take(law.block.len())
+    })
+}
+
+/// What the natural map leaves of all contacts, as the root of an energy.
+pub(super) fn residual(problem: &ContactProblem, local: impl Fn(usize) -> Local) -> f64 {
+    problem
+        .blocks()
+        .enumerate()
+        .fold(0.0, |sum, (contact, block)| {
+            let defect = local(contact).defect().into_iter();
+            defect.take(block.len()).fold(sum, f64::hypot)
+        })
+}
+
+/// What bounds a contact's friction, between reactions scaled by the roots.
+pub(super) fn scaled_limits(problem: &ContactProblem, roots: &[f64], contact: usize) -> Limits {
+    let limits = problem.limits(contact);
+    match roots[problem.block(contact)] {
+        [normal, tangential, ..] => Limits {
+            friction: limits.friction * normal / tangential,
+            shear: limits.shear / tangential,
+            cap: limits.cap / tangential,
+            ..limits
+        },
+        _ => Limits {
+            bilateral: limits.bilateral,
+            ..Limits::coulomb(0.0)
+        },
     }
 }
 
@@ -157,7 +356,7 @@ mod tests {
         Local {
             reaction,
             beyond,
-            friction: 0.5,
+            limits: Limits::coulomb(0.5),
             step: 1.0,
         }
     }

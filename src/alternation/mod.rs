@@ -13,16 +13,21 @@
 //! Bodies that only contact holds have one program over all Coulomb cones in place of both
 //! half-steps, with their equilibrium as rows (H8).
 //!
+//! Contacts may obey laws beyond Coulomb's (`problem::Law`): bounds of friction and of normal reactions differ, sets that
+//! lie elsewhere or are no discs are moved first (D15). Without any the work is the same to the last step.
+//!
 //! A load step starts from the last state instead: its reaction tells which contacts are open,
 //! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
 //! step on what each contact does there.
+//!
+//! A solved state's derivatives come from the same Newton matrix (D15): [`Linearised`].
 //!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.
 
 mod anderson;
+mod centred;
 mod condition;
-mod contraction;
 mod felt;
 mod finish;
 mod float;
@@ -34,23 +39,21 @@ mod laws;
 mod path;
 mod prediction;
 mod proximal;
+mod rates;
 mod run;
 mod settings;
-mod starts;
 
 pub use anderson::Anderson;
-pub(crate) use contraction::Contraction;
-pub use contraction::contraction;
+pub(crate) use condition::times;
 pub use gauss_seidel::GaussSeidel;
-pub(crate) use history::Failure;
-pub use history::{Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
-pub use path::continuity::{Earlier, WayBack, way_back};
+pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};
+pub(crate) use path::plane::{End, PlanePath};
+pub use rates::{Drive, Linearised, Rate, Sides};
 pub use settings::{Interrupt, Settings};
-pub(crate) use starts::OtherStarts;
-pub use starts::other_starts;
 
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;
+use centred::on_centred_sets;
 use felt::on_felt_motions;
 use run::Run;
 
@@ -61,7 +64,9 @@ use run::Run;
 /// Settings outside their range.
 pub fn solve(problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
     settings.validate()?;
-    on_felt_motions(problem, |problem, _| Ok(run(Run::new(problem, settings))))
+    on_centred_sets(problem, settings, |problem, _| {
+        on_felt_motions(problem, |problem, _| Ok(run(Run::new(problem, settings))))
+    })
 }
 
 /// Solves a condensed contact problem from a state that is likely near: that of the load step
@@ -80,9 +85,13 @@ pub fn solve_from(
     motion: &[f64],
 ) -> Result<Outcome, Error> {
     check_length("motion", problem.free_modes(), motion.len())?;
-    on_felt_motions(problem, |problem, felt| {
-        let state = (reaction, &felt(motion)[..]);
-        Ok(run(begun(problem, settings, state, None)?))
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    on_centred_sets(problem, settings, |problem, centred| {
+        let reaction = centred.reaction(reaction);
+        on_felt_motions(problem, |problem, felt| {
+            let state = (&reaction[..], &felt(motion)[..]);
+            Ok(run(begun(problem, settings, state, None)?))
+        })
     })
 }
 
@@ -98,9 +107,13 @@ pub fn finish(
     motion: &[f64],
 ) -> Result<Outcome, Error> {
     check_length("motion", problem.free_modes(), motion.len())?;
-    on_felt_motions(problem, |problem, felt| {
-        let state = (reaction, &felt(motion)[..]);
-        Ok(begun(problem, settings, state, None)?.into_outcome())
+    check_length("reaction", problem.unknowns(), reaction.len())?;
+    on_centred_sets(problem, settings, |problem, centred| {
+        let reaction = centred.reaction(reaction);
+        on_felt_motions(problem, |problem, felt| {
+            let state = (&reaction[..], &felt(motion)[..]);
+            Ok(begun(problem, settings, state, None)?.into_outcome())
+        })
     })
 }
 
@@ -123,13 +136,17 @@ pub fn solve_near(
     check_length("displacement", problem.unknowns(), displacement.len())?;
     check_finite("displacement", displacement)?;
     check_length("motion", problem.free_modes(), near.motion.len())?;
-    let mut beyond = displacement.clone();
-    for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
-        beyond[n] -= gap;
-    }
-    on_felt_motions(problem, |problem, felt| {
-        let state = (&near.reaction[..], &felt(&near.motion)[..]);
-        Ok(run(begun(problem, settings, state, Some(&beyond))?))
+    let beyond = problem.beyond(displacement.clone());
+    check_length("reaction", problem.unknowns(), near.reaction.len())?;
+    on_centred_sets(problem, settings, |problem, centred| {
+        let (reaction, beyond) = (
+            centred.reaction(&near.reaction),
+            centred.displacement(&beyond),
+        );
+        on_felt_motions(problem, |problem, felt| {
+            let state = (&reaction[..], &felt(&near.motion)[..]);
+            Ok(run(begun(problem, settings, state, Some(&beyond))?))
+        })
     })
 }
 

@@ -39,7 +39,9 @@ impl Roles {
         let margins: Vec<f64> = (0..problem.contacts())
             .map(|contact| {
                 let n = problem.offsets()[contact];
-                if reaction[n] < 0.0 {
+                if problem.is_bilateral(contact) {
+                    f64::INFINITY
+                } else if reaction[n] < 0.0 {
                     -problem.compliance()[(n, n)] * reaction[n]
                 } else {
                     displacement[n] - problem.initial_gap()[contact]
@@ -49,7 +51,7 @@ impl Roles {
         let pressed: Vec<f64> = margins
             .iter()
             .copied()
-            .filter(|&margin| margin > 0.0)
+            .filter(|&margin| margin > 0.0 && margin.is_finite())
             .collect();
         let mean = pressed.iter().sum::<f64>() / pressed.len().max(1) as f64;
         let mut normal: Vec<Role> = margins
@@ -77,10 +79,13 @@ impl Roles {
     }
 }
 
-/// `‖t_T‖ / (−μ t_N)`; 1 where the bound is zero.
+/// `‖t_T‖ / (−μ t_N)`; 1 where the bound is zero, and less than any where there is none.
 fn friction_ratio(problem: &ContactProblem, reaction: &[f64], contact: usize) -> f64 {
     let (n, end) = (problem.offsets()[contact], problem.offsets()[contact + 1]);
-    let bound = -problem.friction()[contact] * reaction[n];
+    let bound = problem.friction_bound(contact, reaction[n]);
+    if bound.is_infinite() {
+        return f64::NEG_INFINITY;
+    }
     let size = reaction[n + 1..end]
         .iter()
         .fold(0.0_f64, |size, t| size.hypot(*t));
@@ -92,7 +97,8 @@ fn keep_least(roles: &mut [Role], margin: impl Fn(usize) -> f64) {
     if roles.contains(&Role::Cone) {
         return;
     }
-    let candidates = (0..roles.len()).filter(|&contact| roles[contact] == Role::Free);
+    let candidates = (0..roles.len())
+        .filter(|&contact| roles[contact] == Role::Free && margin(contact).is_finite());
     if let Some(least) = candidates.min_by(|&a, &b| margin(a).total_cmp(&margin(b))) {
         roles[least] = Role::Cone;
     }

@@ -3,12 +3,15 @@
 //! ```text
 //! (D6)   t_k, α_k ← best state;  σ ← 1e-6
 //!        from t_k, α_k Newton steps (D4) under springs of softness σ that are anchored there (D5)
-//!        their residual fell to a tenth:   accept;  after few steps: σ ← σ/10
-//!        else:                             throw away, σ ← 10 σ
+//!        their residual fell to a tenth:   accept;  after few steps: σ ← σ/10, or σ/3 once one was thrown away
+//!        else:                             throw away, σ ← 1000 σ
 //! ```
 //!
 //! Every subproblem is well posed: springs tell contacts apart that stand twice, and hold bodies that contact
 //! does not yet hold. At the end they are as good as gone, and where they are anchored no longer matters.
+//!
+//! A subproblem that is thrown away costs a dozen steps, one that is accepted one or two: a σ that does is found in few
+//! strides, and lowered with care.
 //!
 //! Where nothing holds elastic bodies the springs do to the last: what they carry stays while they soften tenfold
 //! again and again, and the bodies move tenfold each time.
@@ -25,8 +28,11 @@ const SOFTNESS: (f64, f64) = (1e-6, 1e6);
 /// Springs that are as good as none.
 const LEAST: f64 = 1e-18;
 
-/// Change of the softness.
-const TENFOLD: f64 = 10.0;
+/// σ falls by the first; once a subproblem was thrown away by the second, down to the third.
+const FALLS: (f64, f64, f64) = (10.0, 3.0, 1e-3);
+
+/// It rises by this.
+const RISES: f64 = 1e3;
 
 /// Newton steps on a subproblem at most, and how few let the springs soften.
 const STEPS: (usize, usize) = (12, 5);
@@ -42,9 +48,10 @@ const STEPS_IN_ALL: usize = 600;
 const PRODUCTS: f64 = 1e12;
 
 /// What springs carry stands if it changes by less than this part, so many times on end; and nothing holds the
-/// bodies if they move farther then than so many times what any contact is away.
+/// bodies if they move farther then than so many times what any contact is away, or indents. Farther still, what
+/// rounding leaves of a motion along a contact would press it.
 const STANDS: (f64, usize) = (0.1, 3);
-const FAR: f64 = 100.0;
+const FAR: f64 = 1e4;
 
 impl Run<'_> {
     /// (D6) from the best state.
@@ -62,8 +69,7 @@ impl Run<'_> {
 
     fn proximal_loop(&mut self, finish: &mut Finish<'_>) {
         let (mut softness, most) = (SOFTNESS.0, self.work.newton_steps + STEPS_IN_ALL);
-        let (mut products, mut stood) = (0.0, (0.0, 0));
-        let far = FAR * self.reach();
+        let (mut products, mut stood, mut careful) = (0.0, (0.0, 0), false);
         // Newton steps that failed may have left a state far off.
         self.state = self.start.clone();
         while (LEAST..=SOFTNESS.1).contains(&softness) && products < PRODUCTS {
@@ -78,7 +84,8 @@ impl Run<'_> {
                 break;
             }
             let Some(point) = settled else {
-                softness *= TENFOLD;
+                softness *= RISES;
+                careful = true;
                 continue;
             };
             let before = self.state.motion.clone();
@@ -86,10 +93,13 @@ impl Run<'_> {
             self.state.reaction = point.reaction;
             self.judge();
             if steps <= STEPS.1 {
-                softness /= TENFOLD;
+                softness /= match careful && softness > FALLS.2 {
+                    true => FALLS.1,
+                    false => FALLS.0,
+                };
             }
             stood = self.stood(stood);
-            if last || (stood.1 >= STANDS.1 && self.give_way(&before, far)) {
+            if last || (stood.1 >= STANDS.1 && self.give_way(&before, FAR * self.reach())) {
                 break;
             }
         }
@@ -104,14 +114,11 @@ impl Run<'_> {
         (left, if stands { times + 1 } else { 0 })
     }
 
-    /// Largest gap or slip, in metre.
+    /// Largest gap, indentation or slip that no motion of whole bodies makes, in metre.
     fn reach(&self) -> f64 {
-        let mut reach = 0.0_f64;
-        for ends in self.problem.offsets().windows(2) {
-            let beyond = &self.start.verdict.beyond[ends[0]..ends[1]];
-            reach = beyond.iter().fold(reach, |reach, u| reach.max(u.abs()));
-        }
-        reach
+        let displacement = self.problem.displacement(&self.state.reaction);
+        let beyond = self.problem.beyond(displacement);
+        beyond.iter().fold(0.0, |reach, u| reach.max(u.abs()))
     }
 }
 

@@ -12,6 +12,7 @@ use super::{Failure, Outcome, Settings, Shortfall, Status, SweepRecord, Work};
 use crate::cone::{FrictionHalfStep, HalfStepWork, NormalHalfStep};
 use crate::kkt::{ContactStatus, Judge};
 use crate::problem::ContactProblem;
+use crate::stage::{self, Stage};
 
 /// The prediction stops when a pass changes the reaction by less than this, relative.
 const PREDICTED: f64 = 1e-2;
@@ -75,6 +76,7 @@ pub(super) struct Run<'a> {
 impl<'a> Run<'a> {
     /// Starts from no reaction.
     pub(super) fn new(problem: &'a ContactProblem, settings: &'a Settings) -> Self {
+        Stage::Sweeps.begin();
         let judge = Judge::new(problem);
         let state = Iterate::new(
             &judge,
@@ -199,13 +201,14 @@ impl<'a> Run<'a> {
         self.work.seconds.normal += start.elapsed().as_secs_f64();
     }
 
-    /// (D3) on the normal reaction, clipped to t_N ≤ 0.
+    /// (D3) on the normal reaction, clipped to t_N ≤ 0 unless bilateral.
     pub(super) fn accelerate(&mut self) {
         let image = self.normal_reaction();
         let next = self.anderson.next(&self.before, &image);
-        for (contact, t) in next.iter().enumerate() {
-            self.state.reaction[self.problem.offsets()[contact]] = t.min(0.0);
+        for (&n, t) in self.problem.normals().iter().zip(next) {
+            self.state.reaction[n] = t;
         }
+        self.normal.admit(&mut self.state.reaction);
     }
 
     /// (H2).
@@ -289,6 +292,7 @@ impl<'a> Run<'a> {
         self.record.open_stick_slip = counts;
         self.record.seconds = self.sweep_start.elapsed().as_secs_f64();
         self.history.push(self.record);
+        stage::swept(self.work.sweeps, self.record.residual);
         if self.shortfall.is_none() && !self.is_solved() {
             self.shortfall = self.hopeless();
         }

@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::boundary::Owners;
 use super::entries::{check_indices, check_vector};
-use super::{Body, Facet, Ground, Line, Load, Material, Model, Wrench};
+use super::{Body, Facet, Ground, Line, Load, Material, Model, Tie, Wrench};
 use crate::error::{Error, check_finite, check_length};
 
 /// Checks nodes and values of every support, and of every spring.
@@ -22,7 +22,13 @@ pub(super) fn check_supports(body: &Body) -> Result<(), Error> {
         for offset in &support.offsets {
             check_vector(body, || format!("{}.offsets", support.place), offset)?;
         }
+        if !support.axes.is_empty() {
+            let place = format!("{}.axes", support.place);
+            check_length(&place, support.nodes.len(), support.axes.len())?;
+            check_finite(&place, support.axes.as_flattened().as_flattened())?;
+        }
     }
+    body.ties.iter().try_for_each(|tie| check_tie(body, tie))?;
     for spring in &body.foundation {
         spring.check(body)?;
         let place = || spring.place.clone();
@@ -32,6 +38,33 @@ pub(super) fn check_supports(body: &Body) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+/// Nodes and numbers of a tie; the motion of a rigid group shows on its nodes.
+fn check_tie(body: &Body, tie: &Tie) -> Result<(), Error> {
+    let (count, place) = (body.mesh.nodes.len(), || tie.place().to_owned());
+    match tie {
+        Tie::Pairs(tied) => {
+            check_indices(place, "node", tied.pairs.as_flattened(), count)?;
+            check_finite(&place(), tied.rotation.as_flattened())
+        }
+        Tie::Rigid(group) => {
+            check_not_empty(place, group.nodes.len())?;
+            check_indices(place, "node", &group.nodes, count)?;
+            check_finite(&place(), &group.reference_point)?;
+            let given = group.displacement.iter().chain(&group.rotation).flatten();
+            check_finite(&place(), &given.copied().collect::<Vec<_>>())?;
+            match body.model == Model::Axisymmetric || group.turns(body) {
+                true => Ok(()),
+                false => Err(Error::NotAccepted {
+                    place: place(),
+                    found: "a single node, or nodes on a line".to_owned(),
+                    accepted: "nodes whose displacements tell every rotation of the group"
+                        .to_owned(),
+                }),
+            }
+        }
+    }
 }
 
 /// Checks facets, cells, nodes and values of every load.
@@ -44,6 +77,10 @@ pub(super) fn check_loads(body: &Body) -> Result<(), Error> {
         match load {
             Load::PointForce { node, .. } => {
                 check_indices(place, "node", &[*node], body.mesh.nodes.len())?;
+            }
+            Load::AtReference { nodes, .. } => {
+                check_not_empty(place, nodes.len())?;
+                check_indices(place, "node", nodes, body.mesh.nodes.len())?;
             }
             Load::BodyForce { cells, .. }
             | Load::Gravity { cells, .. }
@@ -95,7 +132,9 @@ fn check_values(body: &Body, place: impl Fn() -> String, load: &Load) -> Result<
             let mut gradients = traction.iter().map(|component| component.gradient);
             gradients.try_for_each(|g| vector("traction.gradient", g))
         }
-        Load::Spread { wrench, .. } => check_wrench(body, place, wrench),
+        Load::Spread { wrench, .. } | Load::AtReference { wrench, .. } => {
+            check_wrench(body, place, wrench)
+        }
         Load::Gravity { acceleration, .. } => vector("acceleration", *acceleration),
         Load::Centrifugal {
             axis,

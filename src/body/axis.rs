@@ -1,4 +1,6 @@
-//! The axis of an axisymmetric body, x = 0.
+//! Lines in space, and the axis of an axisymmetric body, x = 0.
+
+use nalgebra::Vector3;
 
 use super::{Body, Model};
 
@@ -37,5 +39,24 @@ impl Axis {
     /// Whether a position is on it.
     pub(crate) fn holds(self, position: [f64; 3]) -> bool {
         position[0].abs() <= self.width
+    }
+}
+
+/// A line in space: a point, in metre, and a direction of any length but zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// A point of the line, in metre.
+    pub point: [f64; 3],
+    /// Its direction.
+    pub direction: [f64; 3],
+}
+
+impl Line {
+    /// The way from the line to a position, across the line, in metre.
+    #[must_use]
+    pub fn arm(&self, position: [f64; 3]) -> [f64; 3] {
+        let along = Vector3::from(self.direction).normalize();
+        let way = Vector3::from(position) - Vector3::from(self.point);
+        (way - along * along.dot(&way)).into()
     }
 }

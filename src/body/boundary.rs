@@ -138,12 +138,12 @@ fn side_of(cell: Cell<'_>, local: usize) -> Facet {
     }
 }
 
-fn key_of(cell: Cell<'_>, local: usize) -> Key {
+pub(super) fn key_of(cell: Cell<'_>, local: usize) -> Key {
     let nodes = cell.kind.facets()[local].iter();
     sorted(nodes.map(|node| cell.nodes[*node]))
 }
 
-fn key(nodes: &[usize]) -> Key {
+pub(super) fn key(nodes: &[usize]) -> Key {
     sorted(nodes.iter().copied())
 }
 

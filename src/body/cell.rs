@@ -5,16 +5,25 @@ use super::reference::Family;
 
 impl CellKind {
     /// The kinds with nodes at the corners only.
-    pub const LINEAR: [Self; 4] = [Self::Tri3, Self::Quad4, Self::Tet4, Self::Hex8];
+    pub const LINEAR: [Self; 6] = [
+        Self::Tri3,
+        Self::Quad4,
+        Self::Tet4,
+        Self::Hex8,
+        Self::Prism6,
+        Self::Pyramid5,
+    ];
 
     /// The kinds with nodes on their edges, some also on their faces and in the middle.
-    pub const QUADRATIC: [Self; 6] = [
+    pub const QUADRATIC: [Self; 8] = [
         Self::Tri6,
         Self::Quad8,
         Self::Quad9,
         Self::Tet10,
         Self::Hex20,
         Self::Hex27,
+        Self::Prism15,
+        Self::Pyramid13,
     ];
 
     /// All kinds.
@@ -48,11 +57,13 @@ impl CellKind {
 
     /// The kind with the corners alone.
     pub(crate) fn linear(self) -> Self {
-        match (self.is_tensor_product(), self.dimension()) {
-            (true, 2) => Self::Quad4,
-            (true, _) => Self::Hex8,
-            (false, 2) => Self::Tri3,
-            (false, _) => Self::Tet4,
+        match (self.reference().family, self.dimension()) {
+            (Family::Simplex, 2) => Self::Tri3,
+            (Family::Simplex, _) => Self::Tet4,
+            (Family::Prism, _) => Self::Prism6,
+            (Family::Pyramid, _) => Self::Pyramid5,
+            (_, 2) => Self::Quad4,
+            _ => Self::Hex8,
         }
     }
 
@@ -72,7 +83,15 @@ impl CellKind {
 
     /// Whether it is a quadrilateral or a hexahedron.
     pub(crate) fn is_tensor_product(self) -> bool {
-        self.reference().family != Family::Simplex
+        matches!(
+            self.reference().family,
+            Family::Tensor | Family::Serendipity
+        )
+    }
+
+    /// Whether strain is the same all over it, but for that around the axis of rings.
+    pub(crate) fn has_constant_strain(self) -> bool {
+        self.is_linear() && self.reference().family == Family::Simplex
     }
 
     /// Reference position of a local node.
@@ -116,18 +135,23 @@ mod tests {
 
     #[test]
     fn derivatives_agree_with_central_differences() {
-        // N is quadratic at most along each axis, so the difference quotient is exact to round-off.
+        // N is quadratic at most along each axis, so the difference quotient is exact to round-off; that of
+        // a pyramid is rational, and the third derivative (of order 10) times h²/6 is left.
         for kind in CellKind::all() {
             let derivatives = kind.reference().shape_derivatives(INSIDE);
+            let (step, accepted) = match kind.reference().family {
+                Family::Pyramid => (1.0 / 8192.0, 1e-6),
+                _ => (0.125, 1e-14),
+            };
             for axis in 0..kind.dimension() {
                 let (mut ahead, mut behind) = (INSIDE, INSIDE);
-                ahead[axis] += 0.125;
-                behind[axis] -= 0.125;
+                ahead[axis] += step;
+                behind[axis] -= step;
                 let shape = |at| kind.reference().shape(at);
                 let (ahead, behind) = (shape(ahead), shape(behind));
                 for node in 0..kind.node_count() {
-                    let quotient = (ahead[node] - behind[node]) / 0.25;
-                    assert!((derivatives[node][axis] - quotient).abs() < 1e-14);
+                    let quotient = (ahead[node] - behind[node]) / (2.0 * step);
+                    assert!((derivatives[node][axis] - quotient).abs() < accepted);
                 }
             }
         }

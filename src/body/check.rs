@@ -1,6 +1,6 @@
 //! What a body must satisfy before it is assembled.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 
@@ -8,7 +8,7 @@ use super::applied::{check_loads, check_supports};
 use super::entries::{check_indices, check_vector};
 use super::quadrature::positions;
 use super::reference::Point;
-use super::{Axis, Body, Cell, CellKind, Mesh};
+use super::{Axis, Body, Cell, CellKind, Facet, Formulation, Mesh};
 use crate::error::{Error, check_length};
 
 /// Least Jacobian accepted, on the scale where a right-angled cell of any aspect has 1.
@@ -34,14 +34,33 @@ pub(crate) fn check(body: &Body) -> Result<(), Error> {
     }
     body.model.validate(&format!("{name}: model"))?;
     for (index, material) in body.materials.iter().enumerate() {
-        material.validate(&format!("{name}: materials[{index}]"))?;
+        let place = format!("{name}: materials[{index}]");
+        material.validate(&place)?;
+        if let Some(constants) = &material.orthotropic {
+            constants.check_plane(&place, body.model)?;
+        }
     }
+    check_formulation(body)?;
     check_nodes(body)?;
     check_cells(body)?;
     check_neighbours(body)?;
+    check_split_faces(body)?;
     check_lone_nodes(body)?;
     check_supports(body)?;
     check_loads(body)
+}
+
+fn check_formulation(body: &Body) -> Result<(), Error> {
+    let mut cells = body.mesh.cells();
+    if body.formulation == Formulation::Standard || cells.any(|cell| body.has_modes(cell.kind)) {
+        return Ok(());
+    }
+    Err(Error::NotAccepted {
+        place: format!("{}: formulation", body.name),
+        found: "incompatible modes on a mesh without cells of four or eight nodes that have them"
+            .to_owned(),
+        accepted: "them on a mesh with quad4 or hex8; quadratic cells bend without them".to_owned(),
+    })
 }
 
 fn check_nodes(body: &Body) -> Result<(), Error> {
@@ -119,9 +138,13 @@ impl CornerPoints {
     fn new() -> Self {
         let points = CellKind::all().map(|kind| {
             let cell = kind.reference();
-            let nodes = cell.nodes.iter().map(|at| Point::at(cell, *at, 0.0));
-            let constant = kind.is_linear() && !kind.is_tensor_product();
-            let nodes = nodes.take(if constant { 0 } else { kind.node_count() });
+            let nodes = cell.nodes.iter().flat_map(|at| cell.ways_to(*at));
+            let nodes = nodes.map(|at| Point::at(cell, at, 0.0));
+            let nodes = nodes.take(if kind.has_constant_strain() {
+                0
+            } else {
+                usize::MAX
+            });
             (kind, nodes.chain(cell.rule.iter().cloned()).collect())
         });
         Self {
@@ -166,6 +189,43 @@ fn check_neighbours(body: &Body) -> Result<(), Error> {
                 found: format!("neighbours with the facets {before} and {nodes}{kinds}"),
                 accepted: "neighbours that share all nodes of their facet".to_owned(),
             });
+        }
+    }
+    Ok(())
+}
+
+/// A quadrilateral between cells must not be two triangles on its other side.
+fn check_split_faces(body: &Body) -> Result<(), Error> {
+    let mesh = &body.mesh;
+    // Tetrahedra have triangles alone, hexahedra none.
+    let all = |corners: usize| mesh.cells().all(|cell| cell.kind.corner_count() == corners);
+    if mesh.dimension == 2 || all(4) || all(8) {
+        return Ok(());
+    }
+    let facets = mesh.boundary_facets();
+    let corners = |facet: &Facet| {
+        let mut corners = facet.corners(3).to_vec();
+        corners.sort_unstable();
+        corners
+    };
+    let three: HashSet<Vec<usize>> = facets
+        .iter()
+        .map(corners)
+        .filter(|c| c.len() == 3)
+        .collect();
+    for facet in facets.iter().map(corners).filter(|c| c.len() == 4) {
+        for left_out in 0..4 {
+            let mut part = facet.clone();
+            part.remove(left_out);
+            if three.contains(&part) {
+                return Err(Error::NotAccepted {
+                    place: format!("{}: cells", body.name),
+                    found: format!("a face with the corners {facet:?} beside one with {part:?}"),
+                    accepted: "neighbours that share all nodes of their facet: a pyramid goes between a quadrilateral \
+                               and triangles"
+                        .to_owned(),
+                });
+            }
         }
     }
     Ok(())
@@ -263,6 +323,54 @@ mod tests {
     }
 
     #[test]
+    fn a_face_of_a_prism_beside_that_of_a_hexahedron_must_have_its_corners() {
+        let above = |kinds: [CellKind; 2]| {
+            move |body: &mut Body| {
+                let line = [0.0, 1.0];
+                let kind = |[_, _, k]: [usize; 3]| kinds[k];
+                body.mesh = crate::body::mixed_box(&line, &line, &[0.0, 1.0, 2.0], kind)
+                    .unwrap_or_default();
+                body.material_of_cell = vec![0; body.mesh.cell_count()];
+            }
+        };
+        let [hexahedra, prisms] = [CellKind::Hex8, CellKind::Prism6];
+        assert_says(
+            CellKind::Hex8,
+            above([hexahedra, prisms]),
+            &["a face with the corners", "pyramid"],
+        );
+        assert_says(
+            CellKind::Hex8,
+            above([prisms, CellKind::Pyramid5]),
+            &["pyramid"],
+        );
+        for sound in [
+            [hexahedra, CellKind::Pyramid5],
+            [prisms, CellKind::Tet4],
+            [prisms; 2],
+        ] {
+            assert_eq!(complaint(CellKind::Hex8, above(sound)), "");
+        }
+    }
+
+    #[test]
+    fn the_apex_of_a_pyramid_may_not_be_folded() {
+        // The node half way up moved to three quarters and beyond: the Jacobian at the apex vanishes and turns.
+        let shift = |to: f64| {
+            move |body: &mut Body| {
+                let nodes = CellKind::Pyramid13.reference().nodes.to_vec();
+                body.mesh = Mesh::new(3, nodes);
+                body.mesh.nodes[7] = [to - 1.0, to - 1.0, to];
+                body.mesh
+                    .push_cell(CellKind::Pyramid13, &(0..13).collect::<Vec<_>>());
+                body.material_of_cell = vec![0];
+            }
+        };
+        assert_eq!(complaint(CellKind::Hex8, shift(0.6)), "");
+        assert_says(CellKind::Hex8, shift(0.8), &["cell 0", "folded"]);
+    }
+
+    #[test]
     fn a_node_between_corners_that_folds_its_cell_is_refused() {
         // Moved from the middle of a side to beyond its end.
         let shift = |body: &mut Body| {
@@ -291,6 +399,7 @@ mod tests {
             nodes: vec![0],
             displacement: [None, Some(f64::INFINITY), None],
             offsets: Vec::new(),
+            axes: Vec::new(),
         };
         assert_says(
             kind,

@@ -6,7 +6,7 @@
 //!
 //! ```text
 //! (B4)  Quad4, Hex8   mean over the cell:          λ V ḡ_a ḡ_bᵀ,    ḡ_a = (1/V) ∫ d_a dV
-//! (B5)  Tri3, Tet4    mean around each node p:     λ V_p b_pa b_pbᵀ,
+//! (B5)  other linear  mean around each node p:     λ V_p b_pa b_pbᵀ,
 //!                     b_pa = (1/V_p) Σ_e (V_e/n) ∇N_a^e,   V_p = Σ_e V_e/n,
 //!                     e: the nearly incompressible cells of one material around p, n nodes each
 //! ```
@@ -15,7 +15,7 @@
 //! 1413–1418; Malkus & Hughes, Comput. Meth. Appl. Mech. Engng 15 (1978) 63–81). (B5) is the
 //! average nodal pressure of Bonet & Burton (Commun. Numer. Meth. Engng 14 (1998)
 //! 437–449): one volume constraint per node, where the plain simplex has one per cell,
-//! two to five times as many. Its displacements converge as those of a compressible
+//! two to six times as many. Its displacements converge as those of a compressible
 //! body; its pressures are rougher than those of (B4), which is the better choice where
 //! pressure matters. The μ-term stays as it is in both, so no deformation but a rigid one
 //! is free of energy. In plane stress the thickness yields and nothing locks. In rings the
@@ -27,11 +27,9 @@
 use nalgebra::Vector3;
 
 use super::incidence::Incidence;
-use super::quadrature::{Mapped, mapped};
+use super::modes::mapped;
+use super::quadrature::Mapped;
 use super::{Body, CellKind, Material, Model};
-
-/// Poisson's ratio from which volume change is averaged.
-const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
 
 /// Which dilatation the λ-term of a cell sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,9 +43,13 @@ pub(crate) enum Dilatation {
 }
 
 impl Dilatation {
-    pub(crate) fn of(kind: CellKind, model: Model, material: &Material) -> Self {
-        let plane_stress = matches!(model, Model::PlaneStress { .. });
-        if plane_stress || material.poisson < NEARLY_INCOMPRESSIBLE || !kind.is_linear() {
+    pub(crate) fn of(body: &Body, kind: CellKind, material: &Material) -> Self {
+        let plane_stress = matches!(body.model, Model::PlaneStress { .. });
+        if plane_stress
+            || body.has_modes(kind)
+            || !material.is_nearly_incompressible()
+            || !kind.is_linear()
+        {
             Self::Pointwise
         } else if kind.is_tensor_product() {
             Self::CellMean
@@ -65,7 +67,7 @@ impl Body {
         let mut cells = self.mesh.cells().zip(&self.material_of_cell);
         cells.any(|(cell, &material)| {
             let material = &self.materials[material];
-            Dilatation::of(cell.kind, self.model, material) != Dilatation::Pointwise
+            Dilatation::of(self, cell.kind, material) != Dilatation::Pointwise
         })
     }
 }
@@ -116,7 +118,7 @@ impl Patches {
             let averaged = |cell: &usize| {
                 let kind = body.mesh.cell(*cell).kind;
                 body.material_of_cell[*cell] == index
-                    && Dilatation::of(kind, body.model, material) == Dilatation::NodeMean
+                    && Dilatation::of(body, kind, material) == Dilatation::NodeMean
             };
             let cells: Vec<usize> = (0..body.mesh.cell_count()).filter(averaged).collect();
             if !cells.is_empty() {
@@ -129,7 +131,7 @@ impl Patches {
     /// Adds one patch around every node of `cells`, which share a material.
     fn append(&mut self, body: &Body, material: usize, cells: &[usize]) {
         let mesh = &body.mesh;
-        let lambda = body.materials[material].lame(body.model).lambda;
+        let lambda = body.materials[material].lambda(body.model);
         let lists = cells.iter().map(|cell| mesh.cell(*cell).nodes);
         let around = Incidence::new(mesh.nodes.len(), lists);
         // Place of each node within the patch under construction.
@@ -189,7 +191,11 @@ mod tests {
 
     #[test]
     fn only_nearly_incompressible_cells_that_feel_it_average() {
-        let of = |kind, model, poisson| Dilatation::of(kind, model, &Material::new(1.0, poisson));
+        let mut body = block(CellKind::Quad4);
+        let mut of = |kind, model, poisson| {
+            body.model = model;
+            Dilatation::of(&body, kind, &Material::new(1.0, poisson))
+        };
         let plate = Model::PlaneStress { thickness: 1.0 };
         assert_eq!(
             of(CellKind::Quad4, Model::PlaneStrain, 0.44),
@@ -207,7 +213,12 @@ mod tests {
     #[test]
     fn patches_share_the_volume_and_give_a_uniform_dilatation() {
         // Σ V_p = V = 2 m² (m³); u = x has θ = dimension, so b_p · x = dimension in every patch.
-        for kind in [CellKind::Tri3, CellKind::Tet4] {
+        for kind in [
+            CellKind::Tri3,
+            CellKind::Tet4,
+            CellKind::Prism6,
+            CellKind::Pyramid5,
+        ] {
             let mut body = distorted(kind);
             body.materials[0].poisson = 0.49;
             let lambda = body.materials[0].lame(body.model).lambda;

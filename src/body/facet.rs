@@ -18,6 +18,7 @@ use std::sync::LazyLock;
 
 use nalgebra::Vector3;
 
+use super::gauss::three_in_triangle;
 use super::kinds::{MOST_FACET_NODES, facet_reference, linear_facet};
 use super::quadrature::positions;
 use super::reference::{Family, Point, Reference};
@@ -124,10 +125,8 @@ impl Mesh {
     /// The same, enough of them for a product of two linear functions.
     pub(crate) fn fine_facet_points(&self, facet: &Facet, model: Model) -> Vec<FacetPoint> {
         static THREE: LazyLock<Vec<Point>> = LazyLock::new(|| {
-            let [near, far] = [1.0 / 6.0, 2.0 / 3.0];
-            let corners = [[near, near, 0.0], [far, near, 0.0], [near, far, 0.0]];
-            let point = |at| Point::at(CellKind::Tri3.reference(), at, 1.0 / 6.0);
-            corners.map(point).into()
+            let point = |(at, weight)| Point::at(CellKind::Tri3.reference(), at, weight);
+            three_in_triangle().map(point).into()
         });
         if self.dimension == 2 || facet.nodes.len() != 3 {
             return self.facet_points(facet, model);

@@ -12,13 +12,13 @@ const SERVES: f64 = 0.1;
 /// Unknowns (`dimension · node + axis`), one per mode, on which the modes are far from dependent.
 ///
 /// The component that moves most is taken first; each next one is that on which most of the remaining
-/// motions is left (QR with pivoting on the components), which finds nodes far apart. Prescribed
-/// components are never chosen, and components of the nodes to `avoid` (such as those on the contact surface, any
+/// motions is left (QR with pivoting on the components), which finds nodes far apart. Components that
+/// are not free are never chosen, and components of the nodes to `avoid` (such as those on the contact surface, any
 /// order) only where the others of their part hardly move.
 #[must_use]
 pub(crate) fn fixing_dofs(
     body: &Body,
-    prescribed: &[Option<f64>],
+    is_free: impl Fn(usize) -> bool,
     free: &FreeModes,
     avoid: &[usize],
 ) -> Vec<usize> {
@@ -31,7 +31,7 @@ pub(crate) fn fixing_dofs(
     let mut chosen = Vec::with_capacity(free.modes.len());
     for (part, nodes) in free.parts.iter().enumerate() {
         let modes: Vec<_> = free.modes.iter().filter(|mode| mode.part == part).collect();
-        let mut rows = rows(body, prescribed, nodes, &modes);
+        let mut rows = rows(body, &is_free, nodes, &modes);
         for _ in 0..modes.len() {
             let Some(pivot) = pivot(&rows, &avoided, body.mesh.dimension).cloned() else {
                 break;
@@ -79,7 +79,7 @@ impl Row {
 
 fn rows(
     body: &Body,
-    prescribed: &[Option<f64>],
+    is_free: impl Fn(usize) -> bool,
     nodes: &[usize],
     modes: &[&super::rigid_modes::RigidMode],
 ) -> Vec<Row> {
@@ -92,7 +92,7 @@ fn rows(
             .collect();
         for axis in 0..axes {
             let unknown = axes * node + axis;
-            if prescribed[unknown].is_none() && !modes.is_empty() {
+            if is_free(unknown) && !modes.is_empty() {
                 let mut motion = [0.0; 6];
                 for (entry, moved) in motion.iter_mut().zip(&moved) {
                     *entry = moved[axis];
@@ -127,7 +127,7 @@ mod tests {
     fn pins_away_from(body: &Body, avoid: &[usize]) -> (FreeModes, Vec<usize>) {
         let prescribed = prescribed(body).unwrap();
         let free = free_modes(body, &prescribed);
-        let chosen = fixing_dofs(body, &prescribed, &free, avoid);
+        let chosen = fixing_dofs(body, |dof| prescribed[dof].is_none(), &free, avoid);
         (free, chosen)
     }
 
@@ -200,6 +200,7 @@ mod tests {
                         nodes: vec![dof / axes],
                         displacement,
                         offsets: Vec::new(),
+                        axes: Vec::new(),
                     });
                 }
                 let u = solve(&body);
@@ -238,6 +239,7 @@ mod tests {
             nodes: vec![0],
             displacement: [Some(0.0), Some(0.0), None],
             offsets: Vec::new(),
+            axes: Vec::new(),
         }];
         let (_, chosen) = pins(&body);
         // The hinge is at (0, 0); the far side is x = 2, which moves most along y.

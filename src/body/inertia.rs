@@ -4,29 +4,10 @@
 //! b = ρ g,      b = ρ ω² a        a: from the axis to the point, across the axis
 //! ```
 
-use nalgebra::Vector3;
-
+use super::Line;
 use super::load::NodalForces;
-use super::quadrature::{mapped, positions, rule};
-
-/// A line in space: a point, in metre, and a direction of any length but zero.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
-    /// A point of the line, in metre.
-    pub point: [f64; 3],
-    /// Its direction.
-    pub direction: [f64; 3],
-}
-
-impl Line {
-    /// The way from the line to a position, across the line, in metre.
-    #[must_use]
-    pub fn arm(&self, position: [f64; 3]) -> [f64; 3] {
-        let along = Vector3::from(self.direction).normalize();
-        let way = Vector3::from(position) - Vector3::from(self.point);
-        (way - along * along.dot(&way)).into()
-    }
-}
+use super::modes::mapped;
+use super::quadrature::{positions, rule};
 
 impl NodalForces<'_> {
     pub(super) fn add_gravity(&mut self, cells: &[usize], acceleration: [f64; 3]) {

@@ -73,6 +73,42 @@ const TETRAHEDRON: [[f64; 3]; 10] = [
     [0.5, 0.0, 0.5],
 ];
 
+/// Corners and edge nodes in Gmsh's order.
+const PRISM: [[f64; 3]; 15] = [
+    [0.0, 0.0, -1.0],
+    [1.0, 0.0, -1.0],
+    [0.0, 1.0, -1.0],
+    [0.0, 0.0, 1.0],
+    [1.0, 0.0, 1.0],
+    [0.0, 1.0, 1.0],
+    [0.5, 0.0, -1.0],
+    [0.0, 0.5, -1.0],
+    [0.0, 0.0, 0.0],
+    [0.5, 0.5, -1.0],
+    [1.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0],
+    [0.5, 0.0, 1.0],
+    [0.0, 0.5, 1.0],
+    [0.5, 0.5, 1.0],
+];
+
+/// Corners and edge nodes in Gmsh's order.
+const PYRAMID: [[f64; 3]; 13] = [
+    [-1.0, -1.0, 0.0],
+    [1.0, -1.0, 0.0],
+    [1.0, 1.0, 0.0],
+    [-1.0, 1.0, 0.0],
+    [0.0, 0.0, 1.0],
+    [0.0, -1.0, 0.0],
+    [-1.0, 0.0, 0.0],
+    [-0.5, -0.5, 0.5],
+    [1.0, 0.0, 0.0],
+    [0.5, -0.5, 0.5],
+    [0.0, 1.0, 0.0],
+    [0.5, 0.5, 0.5],
+    [-0.5, 0.5, 0.5],
+];
+
 const LINE: [[f64; 3]; 3] = [[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 0.0]];
 
 const QUADRATIC_SIDES: &[&[usize]] = &[&[0, 1, 4], &[1, 2, 5], &[2, 3, 6], &[3, 0, 7]];
@@ -223,6 +259,70 @@ static HEX27: Reference = Reference {
     rule: LazyLock::new(|| points(&HEX27)),
 };
 
+static PRISM6: Reference = Reference {
+    name: "prism6",
+    dimension: 3,
+    family: Family::Prism,
+    corners: 6,
+    nodes: PRISM.split_at(6).0,
+    facets: &[
+        &[0, 2, 1],
+        &[3, 4, 5],
+        &[0, 1, 4, 3],
+        &[1, 2, 5, 4],
+        &[2, 0, 3, 5],
+    ],
+    rule: LazyLock::new(|| points(&PRISM6)),
+};
+
+static PRISM15: Reference = Reference {
+    name: "prism15",
+    dimension: 3,
+    family: Family::Prism,
+    corners: 6,
+    nodes: &PRISM,
+    facets: &[
+        &[0, 2, 1, 7, 9, 6],
+        &[3, 4, 5, 12, 14, 13],
+        &[0, 1, 4, 3, 6, 10, 12, 8],
+        &[1, 2, 5, 4, 9, 11, 14, 10],
+        &[2, 0, 3, 5, 7, 8, 13, 11],
+    ],
+    rule: LazyLock::new(|| points(&PRISM15)),
+};
+
+static PYRAMID5: Reference = Reference {
+    name: "pyramid5",
+    dimension: 3,
+    family: Family::Pyramid,
+    corners: 5,
+    nodes: PYRAMID.split_at(5).0,
+    facets: &[
+        &[0, 3, 2, 1],
+        &[0, 1, 4],
+        &[1, 2, 4],
+        &[2, 3, 4],
+        &[3, 0, 4],
+    ],
+    rule: LazyLock::new(|| points(&PYRAMID5)),
+};
+
+static PYRAMID13: Reference = Reference {
+    name: "pyramid13",
+    dimension: 3,
+    family: Family::Pyramid,
+    corners: 5,
+    nodes: &PYRAMID,
+    facets: &[
+        &[0, 3, 2, 1, 6, 10, 8, 5],
+        &[0, 1, 4, 5, 9, 7],
+        &[1, 2, 4, 8, 11, 9],
+        &[2, 3, 4, 10, 12, 11],
+        &[3, 0, 4, 6, 7, 12],
+    ],
+    rule: LazyLock::new(|| points(&PYRAMID13)),
+};
+
 /// Facets of plane and of solid cells.
 static FACETS: [&[&Reference]; 2] = [&[&EDGE2, &EDGE3], &[&TRI3, &QUAD4, &TRI6, &QUAD8, &QUAD9]];
 
@@ -249,6 +349,14 @@ pub enum CellKind {
     Hex20,
     /// Triquadratic hexahedron.
     Hex27,
+    /// Linear prism on a triangle.
+    Prism6,
+    /// Quadratic prism with nodes at corners and on edges.
+    Prism15,
+    /// Linear pyramid on a quadrilateral.
+    Pyramid5,
+    /// Quadratic pyramid with nodes at corners and on edges.
+    Pyramid13,
 }
 
 impl CellKind {
@@ -265,6 +373,10 @@ impl CellKind {
             Self::Tet10 => &TET10,
             Self::Hex20 => &HEX20,
             Self::Hex27 => &HEX27,
+            Self::Prism6 => &PRISM6,
+            Self::Prism15 => &PRISM15,
+            Self::Pyramid5 => &PYRAMID5,
+            Self::Pyramid13 => &PYRAMID13,
         }
     }
 }

@@ -9,7 +9,8 @@
 //! its axis (`dA = 2πr ds`), so that all forces are those of the whole ring; a force at a node is
 //! that of the ring through it.
 
-use super::quadrature::{mapped, rule};
+use super::modes::mapped;
+use super::quadrature::rule;
 use super::{Body, Facet, Load};
 
 /// Nodal forces of the body's loads, in newton (plane strain: per metre of depth), entry
@@ -42,6 +43,7 @@ pub(crate) fn nodal_forces(body: &Body, loads: &[Load]) -> Vec<f64> {
                 forces.add_varying_traction(facets, traction);
             }
             Load::Spread { facets, wrench } => forces.add_spread(facets, wrench),
+            Load::AtReference { nodes, wrench, .. } => forces.add_at_reference(nodes, wrench),
             Load::Gravity {
                 cells,
                 acceleration,
@@ -76,7 +78,9 @@ impl Load {
             Self::VaryingTraction { traction, .. } => {
                 *traction = traction.map(|component| component.scaled(factor));
             }
-            Self::Spread { wrench, .. } => *wrench = wrench.scaled(factor),
+            Self::Spread { wrench, .. } | Self::AtReference { wrench, .. } => {
+                *wrench = wrench.scaled(factor);
+            }
             Self::Centrifugal { speed_squared, .. } => *speed_squared *= factor,
             Self::Temperature { rise, .. } => rise.iter_mut().for_each(|t| *t *= factor),
             Self::InitialStress { stress, .. } => stress.iter_mut().for_each(|s| *s *= factor),

@@ -1,5 +1,5 @@
-//! Isotropic linear elasticity: `σ = λ tr ε I + 2 μ ε`; what heat and initial stress add is in
-//! `prestress.rs`.
+//! Linear elasticity: `σ = λ tr ε I + 2 μ ε`, or what `orthotropic.rs` has in place of λ and 2 μ; what heat and
+//! initial stress add is in `prestress.rs`.
 //!
 //! ```text
 //! μ = E / (2 (1 + ν)),   λ = E ν / ((1 + ν)(1 − 2 ν))     plane strain, 3D
@@ -9,8 +9,32 @@
 //! With the λ of its model, one formula in the body's own axes serves all models.
 //! Timoshenko & Goodier, Theory of Elasticity (1970), art. 11 and 84.
 
-use super::{Material, Model};
+use nalgebra::{Matrix6, Vector3};
+
+use super::orthotropic::{components, mandel};
+use super::{Material, Model, Orthotropic};
 use crate::error::Error;
+
+/// Poisson's ratio from which volume change is averaged.
+const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
+
+/// The stress of a strain at a point, within a model.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[allow(
+    clippy::large_enum_variant,
+    reason = "one at a time, on the stack of who asks for a stress"
+)]
+pub(crate) enum Elasticity {
+    /// `λ θ I + 2 μ ε`.
+    Isotropic(Lame),
+    /// `λ̂ θ I + R ε` (B14).
+    Oriented {
+        /// λ̂, in pascal.
+        lambda: f64,
+        /// R, in pascal and Mandel's form.
+        rest: Matrix6<f64>,
+    },
+}
 
 /// Lamé's constants of a material within a model, in pascal.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,7 +84,81 @@ impl Material {
             poisson,
             expansion: 0.0,
             density: 0.0,
+            orthotropic: None,
         }
+    }
+
+    /// A material with directions that neither weighs anything nor has a Young's modulus or Poisson's ratio of its own.
+    #[must_use]
+    pub const fn oriented(constants: Orthotropic) -> Self {
+        Self {
+            orthotropic: Some(constants),
+            ..Self::new(1.0, 0.0)
+        }
+    }
+
+    /// The stress of a strain at a position, in metre.
+    pub(crate) fn elasticity(&self, model: Model, position: Vector3<f64>) -> Elasticity {
+        match &self.orthotropic {
+            None => Elasticity::Isotropic(self.lame(model)),
+            Some(constants) => {
+                let (lambda, rest) = constants.split(model, position);
+                Elasticity::Oriented { lambda, rest }
+            }
+        }
+    }
+
+    /// λ of the term that nearly incompressible cells average, in pascal.
+    pub(crate) fn lambda(&self, model: Model) -> f64 {
+        match &self.orthotropic {
+            None => self.lame(model).lambda,
+            Some(constants) => constants.moduli()[0],
+        }
+    }
+
+    /// Whether a change of volume takes much more than one of shape.
+    pub(crate) fn is_nearly_incompressible(&self) -> bool {
+        const RATIO: f64 = 2.0 * NEARLY_INCOMPRESSIBLE / (1.0 - 2.0 * NEARLY_INCOMPRESSIBLE);
+        match &self.orthotropic {
+            None => self.poisson >= NEARLY_INCOMPRESSIBLE,
+            Some(constants) => {
+                let [lambda, shear] = constants.moduli();
+                lambda >= RATIO * shear
+            }
+        }
+    }
+
+    /// Least Young's modulus, in pascal.
+    pub(crate) fn softest(&self) -> f64 {
+        match &self.orthotropic {
+            None => self.young,
+            Some(constants) => constants.young.into_iter().fold(f64::INFINITY, f64::min),
+        }
+    }
+
+    /// Strain of one kelvin in the order xx, yy, zz, yz, xz, xy.
+    pub(crate) fn free_strain(&self, position: Vector3<f64>) -> [f64; 6] {
+        match &self.orthotropic {
+            None => {
+                let alpha = self.expansion;
+                [alpha, alpha, alpha, 0.0, 0.0, 0.0]
+            }
+            Some(constants) => constants.expansion(position),
+        }
+    }
+
+    /// `σ : C⁻¹ : σ`, in J/m³; with the stress out of the plane it is the same in every model. Isotropic:
+    /// `((1 + ν) s : s + (1 − 2ν) (tr σ)²/3)/E` with the deviator s.
+    pub(crate) fn energy(&self, position: Vector3<f64>, stress: &[f64; 6]) -> f64 {
+        if let Some(constants) = &self.orthotropic {
+            return constants.energy(position, *stress);
+        }
+        let [xx, yy, zz, yz, xz, xy] = stress;
+        let trace = xx + yy + zz;
+        let normal = [xx, yy, zz].map(|s| (s - trace / 3.0).powi(2));
+        let deviator = normal.iter().sum::<f64>() + 2.0 * (yz * yz + xz * xz + xy * xy);
+        let Self { young, poisson, .. } = self;
+        ((1.0 + poisson) * deviator + (1.0 - 2.0 * poisson) * trace * trace / 3.0) / young
     }
 
     /// Lamé's constants in a model.
@@ -83,6 +181,9 @@ impl Material {
     ///
     /// [`Error::OutOfRange`] unless `E > 0`, `-1 < ν < 0.5` and `ρ ≥ 0`, and α with them is finite.
     pub fn validate(&self, place: &str) -> Result<(), Error> {
+        if let Some(constants) = &self.orthotropic {
+            constants.validate(place)?;
+        }
         check_positive(place, "young", self.young, "0 < young < infinity")?;
         if !(self.density >= 0.0 && self.density.is_finite()) {
             return Err(Error::OutOfRange {
@@ -123,6 +224,22 @@ fn check_positive(
         value,
         accepted,
     })
+}
+
+impl Elasticity {
+    /// Stress of a strain with the dilatation given apart; all as in [`Lame::stress`].
+    pub(crate) fn stress(&self, model: Model, strain: [f64; 6], theta: f64) -> [f64; 6] {
+        match self {
+            Self::Isotropic(lame) => lame.stress(model, strain, theta),
+            Self::Oriented { lambda, rest } => {
+                let mut stress = components(&(rest * mandel(strain)));
+                for normal in &mut stress[..3] {
+                    *normal += lambda * theta;
+                }
+                stress
+            }
+        }
+    }
 }
 
 impl Lame {

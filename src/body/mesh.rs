@@ -50,6 +50,31 @@ pub enum Group {
     Points(Vec<usize>),
 }
 
+impl Group {
+    /// Whether it has no members.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        match self {
+            Self::Cells(members) | Self::Points(members) => members.is_empty(),
+            Self::Facets(members) => members.is_empty(),
+            Self::Edges(members) => members.is_empty(),
+        }
+    }
+
+    /// Adds the members of a group of the same kind; false if it is of another.
+    pub(crate) fn append(&mut self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Cells(own), Self::Cells(other)) | (Self::Points(own), Self::Points(other)) => {
+                own.extend(other)
+            }
+            (Self::Facets(own), Self::Facets(other)) => own.extend_from_slice(other),
+            (Self::Edges(own), Self::Edges(other)) => own.extend_from_slice(other),
+            _ => return false,
+        }
+        true
+    }
+}
+
 /// Nodes, cells and named groups; positions in metre, `z = 0` in 2D.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {

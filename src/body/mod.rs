@@ -13,6 +13,10 @@
 //! (B11) K_ab of a ring                                                          stiffness.rs
 //! (B12) σ = λ θ I + 2 μ ε + σ₀                    heat and initial stress           prestress.rs
 //! (B13) K_ab += ∫ N_a N_b k dA                    springs to the ground            foundation.rs
+//! (B14) C = λ̂ I⊗I + R                             constants that differ with direction  orthotropic.rs
+//! (B15) K = K_uu − K_uα K_αα⁻¹ K_αu                cells that bend as beams do           modes.rs
+//! (B16) Σ a_k u_k = b                             what depends on what             tie.rs
+//! (B17) u = T q + E b                             what is left of the unknowns     dependence.rs
 //! ```
 //!
 //! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
@@ -31,7 +35,10 @@ mod axis;
 mod boundary;
 mod cell;
 mod check;
+mod condensed_cell;
+mod dependence;
 mod dilatation;
+mod element;
 mod entries;
 mod extremes;
 mod facet;
@@ -44,13 +51,20 @@ mod kinds;
 mod load;
 mod material;
 mod mesh;
+mod modes;
+mod orthotropic;
+mod part;
 mod prestress;
+mod prism;
+mod pyramid;
 mod quadrature;
 mod recovery;
 mod reference;
+mod refined;
 mod rigid;
 mod rigid_modes;
 mod sparsity;
+mod split;
 mod spread;
 mod stiffness;
 mod stress;
@@ -58,12 +72,15 @@ mod structured;
 mod support;
 #[cfg(test)]
 pub(crate) mod tests;
+mod tie;
 mod turned;
 
 pub use affine::Affine;
 pub(crate) use axis::Axis;
+pub use axis::Line;
 pub(crate) use axis::held_by_axis;
 pub(crate) use check::check;
+pub(crate) use dependence::{Dependence, dependence};
 pub(crate) use extremes::extremes;
 pub use extremes::{Extreme, Extremes};
 pub(crate) use facet::FacetGeometry;
@@ -73,20 +90,21 @@ pub(crate) use kinds::MOST_FACET_NODES;
 pub(crate) use fixing::fixing_dofs;
 pub(crate) use foundation::foundation_forces;
 pub use foundation::{Foundation, Ground};
-pub use inertia::Line;
 pub use kinds::CellKind;
 pub(crate) use load::{load_vector, nodal_forces};
-pub(crate) use material::Lame;
 pub(crate) use mesh::Cell;
 pub use mesh::{Facet, Group, Mesh};
+pub use orthotropic::{MaterialAxes, Orthotropic};
 pub(crate) use recovery::stress_recovery;
 pub(crate) use rigid_modes::{RigidMode, free_modes};
 pub use spread::Wrench;
 pub(crate) use stiffness::stiffness;
-pub(crate) use stress::{cell_stress, nodal_stress, principal, von_mises};
-pub use structured::{box_mesh, graded, rectangle};
+pub(crate) use stress::{cell_strain, cell_stress, nodal_stress, principal, von_mises};
+pub use structured::{box_mesh, graded, mixed_box, rectangle};
 pub(crate) use support::prescribed;
 pub(crate) use support::prescribed_by;
+pub(crate) use tie::OF_TIE;
+pub use tie::{Equation, RigidGroup, Source, Tie, TiedPairs};
 
 use crate::error::Error;
 
@@ -107,7 +125,18 @@ pub enum Model {
     Solid,
 }
 
-/// An isotropic linear elastic material.
+/// What the displacement of a cell is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Formulation {
+    /// Of shape functions alone.
+    #[default]
+    Standard,
+    /// Of quadrilaterals of four nodes and hexahedra of eight also of incompatible modes (B15), with which they bend as
+    /// beams do; other cells as in `Standard`.
+    IncompatibleModes,
+}
+
+/// A linear elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Young's modulus `E > 0`, in pascal.
@@ -118,6 +147,8 @@ pub struct Material {
     pub expansion: f64,
     /// Mass density `ρ ≥ 0`, in kg/m³.
     pub density: f64,
+    /// Constants that differ with direction: they stand for all but the density.
+    pub orthotropic: Option<Orthotropic>,
 }
 
 /// Nodes whose displacement is given, component by component.
@@ -127,10 +158,12 @@ pub struct Support {
     pub place: String,
     /// The supported nodes.
     pub nodes: Vec<usize>,
-    /// Prescribed displacement per global axis, in metre; `None` leaves the component free.
+    /// Prescribed displacement per axis, in metre; `None` leaves the component free.
     pub displacement: [Option<f64>; 3],
     /// Added to it per node, in metre, as of a rotation; none at all where all nodes move alike.
     pub offsets: Vec<[f64; 3]>,
+    /// Orthonormal directions of the components per node; none at all where they are the global axes.
+    pub axes: Vec<[[f64; 3]; 3]>,
 }
 
 /// A given force on the body.
@@ -186,6 +219,16 @@ pub enum Load {
         /// What the tractions sum up to.
         wrench: Wrench,
     },
+    /// A force and a moment at the reference point of a rigid group: any forces on its nodes with that
+    /// resultant are the same.
+    AtReference {
+        /// Where the scene states the group.
+        place: String,
+        /// Nodes of the group.
+        nodes: Vec<usize>,
+        /// What their forces sum up to.
+        wrench: Wrench,
+    },
     /// Weight: force per volume of the density times an acceleration.
     Gravity {
         /// Loaded cells.
@@ -237,6 +280,10 @@ pub struct Body {
     pub loads: Vec<Load>,
     /// Springs to the ground.
     pub foundation: Vec<Foundation>,
+    /// What the displacement of a cell is made of.
+    pub formulation: Formulation,
+    /// Displacements that depend on each other.
+    pub ties: Vec<Tie>,
 }
 
 impl Body {

@@ -1,7 +1,7 @@
 //! Stress that a body has without being displaced: from heat, and given.
 //!
 //! ```text
-//! (B12)  σ = λ (θ − 3 α T) I + 2 μ (ε − α T I) + σ_i = λ θ I + 2 μ ε + σ₀
+//! (B12)  σ = λ (θ − 3 α T) I + 2 μ (ε − α T I) + σ_i = λ θ I + 2 μ ε + σ₀,      λ̂ and R for λ and 2 μ of (B14)
 //!        f_a = −∫ σ₀ ∇N_a dV                               its nodal forces; rings: − ∫ σ₀_θθ N_a / r dV e_r
 //! ```
 //!
@@ -9,9 +9,13 @@
 //! plane stress λ is that of the model and takes 2 α T. Where the energy sees a mean dilatation ((B4), (B5))
 //! the λ-term sees the same mean of T, so that no change of volume is forced which the cell cannot follow.
 
+use nalgebra::Vector3;
+
+use super::condensed_cell::Condensed;
 use super::dilatation::Dilatation;
 use super::load::NodalForces;
-use super::quadrature::{mapped, rule};
+use super::modes::mapped;
+use super::quadrature::rule;
 use super::{Body, Load, Model};
 
 /// σ₀ of a body under its loads.
@@ -73,26 +77,51 @@ impl<'a> Prestress<'a> {
 
     /// σ₀ in a cell at a point where its shape functions are known, in pascal.
     pub(super) fn at(&self, cell: usize, shape: &[f64]) -> [f64; 6] {
+        let (mesh, model) = (&self.body.mesh, self.body.model);
         let material = &self.body.materials[self.body.material_of_cell[cell]];
-        let model = self.body.model;
-        let lame = material.lame(model);
         let rise: f64 = shape
             .iter()
             .zip(self.of_nodes(cell))
             .map(|(n, t)| n * t)
             .sum();
         let bulk = self.bulk[cell].unwrap_or(rise);
+        let nodes = mesh.cell(cell).nodes.iter().zip(shape);
+        let position = nodes
+            .map(|(node, n)| Vector3::from(mesh.nodes[*node]) * *n)
+            .sum();
+        let strain = material.free_strain(position);
         let axes = match model {
             Model::PlaneStress { .. } => 2,
             _ => 3,
         };
-        let heat =
-            material.expansion * (axes as f64 * lame.lambda * bulk + 2.0 * lame.shear * rise);
-        let mut stress = self.given[cell];
-        for normal in &mut stress[..axes] {
-            *normal -= heat;
+        let theta = bulk * strain[..axes].iter().sum::<f64>();
+        let elasticity = material.elasticity(model, position);
+        let heat = elasticity.stress(model, strain.map(|alpha| rise * alpha), theta);
+        std::array::from_fn(|k| self.given[cell][k] - heat[k])
+    }
+
+    /// `−∫ σ₀ ∇N_a dV` of a cell, entry `dimension · node + axis`, then of its modes (B15), for one metre of depth.
+    pub(super) fn forces(&self, index: usize) -> Vec<f64> {
+        let cell = self.body.mesh.cell(index);
+        let axes = self.body.mesh.dimension;
+        let mut forces = Vec::new();
+        for (point, reference) in mapped(self.body, cell)
+            .iter()
+            .zip(rule(cell.kind, self.body.model))
+        {
+            let [xx, yy, zz, yz, xz, xy] = self.at(index, &reference.shape);
+            let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+            forces.resize(axes * point.gradients.len(), 0.0);
+            for (a, (force, gradient)) in forces.chunks_mut(axes).zip(&point.gradients).enumerate()
+            {
+                for (entry, row) in force.iter_mut().zip(rows) {
+                    *entry -=
+                        point.volume * row.iter().zip(gradient).map(|(s, g)| s * g).sum::<f64>();
+                }
+                force[0] -= point.volume * zz * point.hoop.get(a).copied().unwrap_or(0.0);
+            }
         }
-        stress
+        forces
     }
 
     /// T at the nodes of a cell.
@@ -104,9 +133,8 @@ impl<'a> Prestress<'a> {
     fn take_means(&mut self) {
         let (body, mesh) = (self.body, &self.body.mesh);
         let kinds = mesh.cells().zip(&body.material_of_cell);
-        let kinds = kinds.map(|(cell, &material)| {
-            Dilatation::of(cell.kind, body.model, &body.materials[material])
-        });
+        let kinds = kinds
+            .map(|(cell, &material)| Dilatation::of(body, cell.kind, &body.materials[material]));
         let kinds: Vec<Dilatation> = kinds.collect();
         if kinds.iter().all(|kind| *kind == Dilatation::Pointwise) {
             return;
@@ -168,20 +196,21 @@ impl NodalForces<'_> {
         };
         let depth = self.body.model.depth();
         for index in 0..self.body.mesh.cell_count() {
-            let cell = self.body.mesh.cell(index);
-            let points = mapped(self.body, cell);
-            for (point, reference) in points.iter().zip(rule(cell.kind, self.body.model)) {
-                let [xx, yy, zz, yz, xz, xy] = prestress.at(index, &reference.shape);
-                let rows = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-                for (a, node) in cell.nodes.iter().enumerate() {
-                    let gradient = point.gradients[a];
-                    let mut force =
-                        rows.map(|row| row.iter().zip(&gradient).map(|(s, g)| s * g).sum());
-                    if let Some(hoop) = point.hoop.get(a) {
-                        force[0] += zz * hoop;
-                    }
-                    self.add(*node, force, -point.volume * depth);
-                }
+            let mut forces = prestress.forces(index);
+            if let Some(condensed) = Condensed::of(self.body, index) {
+                forces = condensed.forces(&forces).as_slice().to_vec();
+            }
+            let axes = self.body.mesh.dimension;
+            for (node, force) in self
+                .body
+                .mesh
+                .cell(index)
+                .nodes
+                .iter()
+                .zip(forces.chunks(axes))
+            {
+                let force = std::array::from_fn(|k| force.get(k).copied().unwrap_or(0.0));
+                self.add(*node, force, depth);
             }
         }
     }

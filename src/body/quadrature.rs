@@ -10,13 +10,14 @@
 //! `t_3` is the unit vector out of the plane. Rings, the cells of axisymmetric bodies,
 //! have `2πr` times the area of their section for a volume.
 
-use std::f64::consts::PI;
+use std::f64::consts::{FRAC_1_SQRT_2, PI};
 use std::sync::LazyLock;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix6x3, Vector3};
 
+use super::gauss::three_in_triangle;
 use super::reference::Point;
-use super::{Body, Cell, CellKind, Mesh, Model};
+use super::{CellKind, Mesh, Model};
 
 /// A quadrature point in space.
 #[derive(Clone, Debug)]
@@ -86,6 +87,28 @@ impl Mapped {
             Some(hoop) => self.gradients[a] + Vector3::x() * *hoop,
         }
     }
+
+    /// `B_a`: strain of a displacement of node a, in Mandel's form.
+    pub(crate) fn strain(&self, a: usize) -> Matrix6x3<f64> {
+        let [x, y, z] = self.gradients[a].into();
+        let [p, q, r] = [x, y, z].map(|slope| slope * FRAC_1_SQRT_2);
+        let mut strain = Matrix6x3::zeros();
+        for (at, slope) in [
+            ((0, 0), x),
+            ((1, 1), y),
+            ((2, 2), z),
+            ((3, 1), r),
+            ((3, 2), q),
+            ((4, 0), r),
+            ((4, 2), p),
+            ((5, 0), q),
+            ((5, 1), p),
+        ] {
+            strain[at] = slope;
+        }
+        strain[(2, 0)] = self.hoop.get(a).copied().unwrap_or(0.0);
+        strain
+    }
 }
 
 /// The quadrature rule of a cell within a model.
@@ -93,24 +116,13 @@ impl Mapped {
 /// One point of a linear triangle will do where strain is constant, which it is not in a ring.
 pub(crate) fn rule(kind: CellKind, model: Model) -> &'static [Point] {
     static RING: LazyLock<Vec<Point>> = LazyLock::new(|| {
-        let [near, far] = [1.0 / 6.0, 2.0 / 3.0];
-        let corners = [[near, near, 0.0], [far, near, 0.0], [near, far, 0.0]];
-        let point = |at| Point::at(CellKind::Tri3.reference(), at, 1.0 / 6.0);
-        corners.map(point).into()
+        let point = |(at, weight)| Point::at(CellKind::Tri3.reference(), at, weight);
+        three_in_triangle().map(point).into()
     });
     match (kind, model) {
         (CellKind::Tri3, Model::Axisymmetric) => &RING,
         _ => &kind.reference().rule,
     }
-}
-
-/// A cell's quadrature points in space.
-pub(crate) fn mapped(body: &Body, cell: Cell<'_>) -> Vec<Mapped> {
-    let positions = positions(&body.mesh, cell.nodes);
-    let points = rule(cell.kind, body.model).iter();
-    points
-        .map(|point| point.map(body.model, &positions))
-        .collect()
 }
 
 /// Positions of nodes, in metre.
@@ -132,6 +144,15 @@ impl Mesh {
                 let [t1, t2, t3] = point.tangents(cell.kind.dimension(), &positions);
                 point.weight * t1.dot(&t2.cross(&t3))
             })
+            .sum()
+    }
+
+    /// Where a reference position of a cell is, in metre.
+    pub(super) fn in_space(&self, cell: usize, at: [f64; 3]) -> Vector3<f64> {
+        let cell = self.cell(cell);
+        let nodes = cell.nodes.iter().zip(cell.kind.reference().shape(at));
+        nodes
+            .map(|(node, shape)| Vector3::from(self.nodes[*node]) * shape)
             .sum()
     }
 
@@ -174,7 +195,10 @@ mod tests {
     #[test]
     fn volumes_of_the_reference_cells_are_exact() {
         let (sixth, half) = (1.0 / 6.0, 0.5);
-        let expected = [half, 4.0, sixth, 8.0, half, 4.0, 4.0, sixth, 8.0, 8.0];
+        let third = 4.0 / 3.0;
+        let expected = [
+            half, 4.0, sixth, 8.0, 1.0, third, half, 4.0, 4.0, sixth, 8.0, 8.0, 1.0, third,
+        ];
         for (kind, expected) in CellKind::all().zip(expected) {
             let nodes = (0..kind.node_count())
                 .map(|node| kind.position(node))

@@ -10,11 +10,13 @@
 //! is the energy norm of the error (Zienkiewicz, Zhu, Int. J. Numer. Meth. Engng 24 (1987) 337–357).
 //! Next to supports, corners and the ends of the contact it is a measure, not a bound.
 
-use super::dilatation::Dilatation;
+use super::modes::mapped;
 use super::prestress::Prestress;
-use super::quadrature::{mapped, rule};
-use super::stress::{gradient_of, stress_at_nodes, stress_of, sum as plus};
-use super::{Body, Material, Model, cell_stress};
+use super::quadrature::{positions, rule};
+use super::stress::{
+    amplitudes, dilatations, gradient_of, stress_at_nodes, stress_of, sum as plus,
+};
+use super::{Body, Model, cell_stress};
 
 /// What (B9) finds in a body; both squared energy norms, in joule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,6 +34,7 @@ pub(crate) struct StressRecovery {
 pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
     let centres = cell_stress(body, displacement);
     let prestress = Prestress::new(body, &body.loads);
+    let dilatations = dilatations(body, displacement);
     let volumes: Vec<f64> = (0..centres.len())
         .map(|cell| body.mesh.volume(cell))
         .collect();
@@ -46,7 +49,7 @@ pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecove
                 body,
                 displacement,
                 prestress.as_ref(),
-                (cell, &centres[cell]),
+                (cell, dilatations[cell], &centres[cell]),
             )
         };
         recover(body, cells, at_nodes, &volumes, &mut recovered);
@@ -54,18 +57,14 @@ pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecove
             let cell = body.mesh.cell(index);
             let smooth: Vec<_> = cell.nodes.iter().map(|node| recovered[*node].0).collect();
             let material = &body.materials[body.material_of_cell[index]];
-            let constant = cell.kind.is_linear()
-                && !cell.kind.is_tensor_product()
-                && body.model != Model::Axisymmetric;
+            let constant = cell.kind.has_constant_strain() && body.model != Model::Axisymmetric;
             let of_cell = if !constant {
-                by_points(body, displacement, prestress.as_ref(), index, &smooth)
+                let mean = (index, dilatations[index]);
+                by_points(body, displacement, prestress.as_ref(), mean, &smooth)
             } else {
-                in_simplex(
-                    &Compliance(material),
-                    volumes[index],
-                    &centres[index],
-                    &smooth,
-                )
+                let centre = body.mesh.centroid(index).into();
+                let square = |stress: &[f64; 6]| material.energy(centre, stress);
+                in_simplex(square, volumes[index], &centres[index], &smooth)
             };
             sum.error += body.model.depth() * of_cell.error;
             sum.energy += body.model.depth() * of_cell.energy;
@@ -99,7 +98,7 @@ fn recover(
 
 /// σ is constant and `σ* − σ = Σ N_a d_a`, with `∫ N_a N_b dV = V (1 + δ_ab)/(n (n + 1))` for n nodes.
 fn in_simplex(
-    compliance: &Compliance<'_>,
+    square: impl Fn(&[f64; 6]) -> f64,
     volume: f64,
     stress: &[f64; 6],
     smooth: &[[f64; 6]],
@@ -108,15 +107,15 @@ fn in_simplex(
     let mut sum = [0.0; 6];
     let mut own = 0.0;
     for difference in &differences {
-        own += compliance.square(difference);
+        own += square(difference);
         for (total, d) in sum.iter_mut().zip(difference) {
             *total += d;
         }
     }
     let nodes = smooth.len() as f64;
     StressRecovery {
-        error: volume * (compliance.square(&sum) + own) / (nodes * (nodes + 1.0)),
-        energy: volume * compliance.square(stress),
+        error: volume * (square(&sum) + own) / (nodes * (nodes + 1.0)),
+        energy: volume * square(stress),
     }
 }
 
@@ -125,27 +124,20 @@ fn by_points(
     body: &Body,
     displacement: &[f64],
     prestress: Option<&Prestress<'_>>,
-    index: usize,
+    (index, theta): (usize, Option<f64>),
     smooth: &[[f64; 6]],
 ) -> StressRecovery {
     let cell = body.mesh.cell(index);
     let material = &body.materials[body.material_of_cell[index]];
-    let (points, lame) = (rule(cell.kind, body.model), material.lame(body.model));
-    let (compliance, all) = (Compliance(material), mapped(body, cell));
-    let gradients = all.iter();
-    let gradients: Vec<_> = gradients
-        .map(|point| gradient_of(body, displacement, cell, point))
-        .collect();
-    let weighted = all.iter().zip(&gradients);
-    let mean = weighted
-        .map(|(point, h)| point.volume * h.trace())
-        .sum::<f64>()
-        / all.iter().map(|point| point.volume).sum::<f64>();
-    let pointwise = Dilatation::of(cell.kind, body.model, material) == Dilatation::Pointwise;
+    let nodes = positions(&body.mesh, cell.nodes);
+    let points = rule(cell.kind, body.model).iter().zip(mapped(body, cell));
+    let amplitudes = amplitudes(body, displacement, prestress, index);
     let mut sum = StressRecovery::default();
-    for ((point, mapped), gradient) in points.iter().zip(&all).zip(&gradients) {
-        let theta = if pointwise { gradient.trace() } else { mean };
-        let mut stress = stress_of(lame, body.model, gradient, theta);
+    for (point, mapped) in points {
+        let position = point.in_space(&nodes);
+        let gradient = gradient_of(body, displacement, cell, &amplitudes, &mapped);
+        let elasticity = material.elasticity(body.model, position);
+        let mut stress = stress_of(&elasticity, body.model, &gradient, theta);
         if let Some(prestress) = prestress {
             stress = plus(stress, prestress.at(index, &point.shape));
         }
@@ -155,8 +147,8 @@ fn by_points(
                 *total += shape * component;
             }
         }
-        sum.error += mapped.volume * compliance.square(&minus(&at_point, &stress));
-        sum.energy += mapped.volume * compliance.square(&stress);
+        sum.error += mapped.volume * material.energy(position, &minus(&at_point, &stress));
+        sum.energy += mapped.volume * material.energy(position, &stress);
     }
     sum
 }
@@ -165,25 +157,11 @@ fn minus(a: &[f64; 6], b: &[f64; 6]) -> [f64; 6] {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
-/// C⁻¹ of a material; with the stress out of the plane it is the same in every model.
-struct Compliance<'a>(&'a Material);
-
-impl Compliance<'_> {
-    /// `σ : C⁻¹ : σ = ((1 + ν) s : s + (1 − 2ν) (tr σ)²/3)/E` with the deviator s, in J/m³.
-    fn square(&self, [xx, yy, zz, yz, xz, xy]: &[f64; 6]) -> f64 {
-        let Material { young, poisson, .. } = self.0;
-        let trace = xx + yy + zz;
-        let normal = [xx, yy, zz].map(|s| (s - trace / 3.0).powi(2));
-        let deviator = normal.iter().sum::<f64>() + 2.0 * (yz * yz + xz * xz + xy * xy);
-        ((1.0 + poisson) * deviator + (1.0 - 2.0 * poisson) * trace * trace / 3.0) / young
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::tests::samples::distorted;
-    use crate::body::{CellKind, stiffness};
+    use crate::body::tests::samples::{distorted, mixed};
+    use crate::body::{CellKind, Material, stiffness};
     use nalgebra::{Matrix3, Vector3};
 
     fn nodal(body: &Body, u: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Vec<f64> {
@@ -197,9 +175,14 @@ mod tests {
     #[test]
     fn a_linear_displacement_has_no_error_and_its_own_energy() {
         let h = Matrix3::new(1.0, 2.0, 0.0, 0.0, 3.0, 0.0, 0.0, 0.0, 0.0);
-        for kind in CellKind::all() {
+        let with_modes = [CellKind::Quad4, CellKind::Hex8].map(|kind| Body {
+            formulation: crate::body::Formulation::IncompatibleModes,
+            ..distorted(kind)
+        });
+        let bodies = CellKind::all().map(distorted).chain(with_modes);
+        for mut body in bodies.chain([mixed(false), mixed(true)]) {
+            let kind = body.mesh.cell(0).kind;
             for poisson in [0.25, 0.4999] {
-                let mut body = distorted(kind);
                 body.materials[0].poisson = poisson;
                 let u = nodal(&body, |x| h * x);
                 let found = stress_recovery(&body, &u);

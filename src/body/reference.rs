@@ -11,10 +11,12 @@
 //!               (1 − ξ_k²) Π_(j≠k) ½ (1 + c_j ξ_j) between two of them, along axis k
 //! ```
 //!
-//! Hughes, The Finite Element Method (1987), ch. 3; Zienkiewicz & Taylor, The Finite
+//! Prisms and pyramids have files of their own. Hughes, The Finite Element Method (1987), ch. 3; Zienkiewicz & Taylor, The Finite
 //! Element Method 1 (2000), ch. 8.
 
 use std::sync::LazyLock;
+
+use super::{prism, pyramid};
 
 /// How shape functions follow from the nodes' positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,7 +27,14 @@ pub(crate) enum Family {
     Tensor,
     /// The same with nodes at corners and on edges only.
     Serendipity,
+    /// Triangles between two heights.
+    Prism,
+    /// A square under an apex.
+    Pyramid,
 }
+
+/// Corners of the base of a pyramid.
+const PYRAMID_SIDES: [[f64; 2]; 4] = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
 
 /// A reference cell or facet; nodes as in Gmsh, corners first.
 pub(crate) struct Reference {
@@ -77,11 +86,39 @@ impl Reference {
 
     /// Position of the centre.
     pub(crate) fn centre(&self) -> [f64; 3] {
-        let share = match self.family {
-            Family::Simplex => 1.0 / (self.dimension as f64 + 1.0),
-            Family::Tensor | Family::Serendipity => 0.0,
-        };
-        std::array::from_fn(|axis| if axis < self.dimension { share } else { 0.0 })
+        let share = 1.0 / (self.dimension as f64 + 1.0);
+        match self.family {
+            Family::Simplex => {
+                std::array::from_fn(|axis| if axis < self.dimension { share } else { 0.0 })
+            }
+            Family::Tensor | Family::Serendipity => [0.0; 3],
+            Family::Prism => [1.0 / 3.0, 1.0 / 3.0, 0.0],
+            Family::Pyramid => [0.0, 0.0, 0.25],
+        }
+    }
+
+    /// A node's position; four next to the apex of a pyramid, where derivatives depend on the way there.
+    pub(crate) fn ways_to(&self, node: [f64; 3]) -> Vec<[f64; 3]> {
+        const BESIDE: f64 = 1.0 / 1_048_576.0;
+        if self.family != Family::Pyramid || node[2] < 1.0 {
+            return vec![node];
+        }
+        let ways = PYRAMID_SIDES.iter();
+        ways.map(|[a, b]| [a * BESIDE, b * BESIDE, 1.0 - BESIDE])
+            .collect()
+    }
+
+    /// Values of the functions that carry what is known at the points that are the corners, drawn towards the
+    /// centre, on to all of the cell: the shape functions, of pyramids without what is not linear in them.
+    pub(crate) fn extrapolation(&self, at: [f64; 3]) -> Vec<f64> {
+        if self.family != Family::Pyramid {
+            return self.shape(at);
+        }
+        let [x, y, z] = at;
+        let base = PYRAMID_SIDES
+            .iter()
+            .map(|[a, b]| 0.25 * (1.0 - z + a * x + b * y));
+        base.chain([z]).collect()
     }
 
     /// Values `N_a` of the shape functions.
@@ -103,6 +140,7 @@ impl Reference {
                     factors.product::<f64>() * self.edge_correction(node, at)
                 })
                 .collect(),
+            Family::Prism | Family::Pyramid => nodes.map(|node| self.tapered(node, at).0).collect(),
         }
     }
 
@@ -151,18 +189,33 @@ impl Reference {
                     })
                 })
                 .collect(),
+            Family::Prism | Family::Pyramid => nodes.map(|node| self.tapered(node, at).1).collect(),
+        }
+    }
+
+    /// Value and derivatives of the shape function of a node of a prism or pyramid.
+    fn tapered(&self, node: &[f64; 3], at: [f64; 3]) -> (f64, [f64; 3]) {
+        match self.family {
+            Family::Pyramid => pyramid::shape(self.is_linear(), node, at),
+            _ => {
+                let place = (self.between(*node), node[2]);
+                prism::shape(self.is_linear(), place, self.barycentric(at), at[2])
+            }
         }
     }
 
     fn barycentric(&self, at: [f64; 3]) -> [f64; 4] {
-        let axes = self.dimension;
+        let axes = match self.family {
+            Family::Prism => 2,
+            _ => self.dimension,
+        };
         let mut lambda = [0.0; 4];
         lambda[0] = 1.0 - at[..axes].iter().sum::<f64>();
         lambda[1..=axes].copy_from_slice(&at[..axes]);
         lambda
     }
 
-    /// The two corners of a simplex that a node is between; twice the same at a corner.
+    /// The two corners of a simplex, or of a prism's triangle, that a node is between; twice the same at a corner.
     fn between(&self, node: [f64; 3]) -> (usize, usize) {
         let lambda = self.barycentric(node);
         let first = lambda.iter().position(|share| *share > 0.0);

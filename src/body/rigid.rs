@@ -13,7 +13,8 @@ use std::collections::HashSet;
 
 use nalgebra::{SVector, Vector3};
 
-use super::{Body, Model};
+use super::tie::{OF_TIE, equations};
+use super::{Body, Model, Tie};
 
 /// Lever arms below this fraction of the part's size hold no rotation: in the stiffness
 /// matrix its square is all that is left of them.
@@ -22,14 +23,25 @@ const SMALLEST_ARM: f64 = 1e-6;
 /// `(a, ω L)`.
 pub(super) type Motion = SVector<f64, 6>;
 
-/// Nodes of each connected part, by joining the nodes of every cell.
+/// Nodes of each connected part, by joining the nodes of every cell and tie.
 pub(super) fn parts(body: &Body) -> Vec<Vec<usize>> {
     let count = body.mesh.nodes.len();
     let mut parent: Vec<usize> = (0..count).collect();
+    let mut join = |first: usize, node: usize| {
+        let (one, other) = (root(&mut parent, first), root(&mut parent, node));
+        parent[one.max(other)] = one.min(other);
+    };
     for cell in body.mesh.cells() {
-        for &node in &cell.nodes[1..] {
-            let (one, other) = (root(&mut parent, cell.nodes[0]), root(&mut parent, node));
-            parent[one.max(other)] = one.min(other);
+        let others = cell.nodes[1..].iter();
+        others.for_each(|&node| join(cell.nodes[0], node));
+    }
+    for tie in &body.ties {
+        match tie {
+            Tie::Rigid(group) => group
+                .nodes
+                .iter()
+                .for_each(|&node| join(group.nodes[0], node)),
+            Tie::Pairs(tied) => tied.pairs.iter().for_each(|&[a, b]| join(a, b)),
         }
     }
     let mut parts: Vec<Vec<usize>> = Vec::new();
@@ -106,12 +118,47 @@ impl<'a> Part<'a> {
         for &node in nodes {
             for axis in 0..axes {
                 if prescribed[axes * node + axis].is_some() {
-                    rows.push(self.row(node, Vector3::ith(axis, 1.0)));
+                    rows.push(self.row(self.body.mesh.nodes[node], Vector3::ith(axis, 1.0)));
                 }
             }
         }
         rows.extend(self.spring_rows(nodes));
+        rows.extend(self.tied_rows(nodes));
         rows
+    }
+
+    /// One row per equation (B16) between displacements of the part: a rigid group moves as the part does.
+    fn tied_rows(&self, nodes: &[usize]) -> Vec<Motion> {
+        if !self.body.is_tied() {
+            return Vec::new();
+        }
+        let of_part: HashSet<usize> = nodes.iter().copied().collect();
+        let rows = equations(self.body).into_iter().filter_map(|equation| {
+            let mut sum = Motion::zeros();
+            for (column, a) in equation.terms {
+                sum += self.column(column, &of_part)? * a;
+            }
+            Some(sum)
+        });
+        rows.collect()
+    }
+
+    /// What a column of (B16) is in the six numbers; none if it is of another part.
+    fn column(&self, column: usize, of_part: &HashSet<usize>) -> Option<Motion> {
+        let (axes, unknowns) = (self.body.mesh.dimension, self.body.unknowns());
+        let Some(beyond) = column.checked_sub(unknowns) else {
+            let node = column / axes;
+            let row = || self.row(self.body.mesh.nodes[node], Vector3::ith(column % axes, 1.0));
+            return of_part.contains(&node).then(row);
+        };
+        let Tie::Rigid(group) = self.body.ties.get(beyond / OF_TIE)? else {
+            return None;
+        };
+        of_part.contains(group.nodes.first()?).then_some(())?;
+        Some(match beyond % OF_TIE {
+            axis @ 0..3 => self.row(group.reference_point, Vector3::ith(axis, 1.0)),
+            turn => unit(turn) * (group.size(self.body) / self.size),
+        })
     }
 
     /// One row per direction that a spring resists at a node of the part.
@@ -123,13 +170,13 @@ impl<'a> Part<'a> {
         let springs = self.body.foundation.iter();
         let held = springs.flat_map(|spring| spring.held_directions(self.body));
         let held = held.filter(|(node, _)| of_part.contains(node));
-        held.map(|(node, direction)| self.row(node, direction))
+        held.map(|(node, direction)| self.row(self.body.mesh.nodes[node], direction))
             .collect()
     }
 
-    /// The displacement of a node along a direction, in the six numbers.
-    fn row(&self, node: usize, direction: Vector3<f64>) -> Motion {
-        let arm = (Vector3::from(self.body.mesh.nodes[node]) - self.centre) / self.size;
+    /// The displacement at a position along a direction, in the six numbers.
+    fn row(&self, position: [f64; 3], direction: Vector3<f64>) -> Motion {
+        let arm = (Vector3::from(position) - self.centre) / self.size;
         let mut row = Motion::zeros();
         row.fixed_rows_mut::<3>(0).copy_from(&direction);
         row.fixed_rows_mut::<3>(3).copy_from(&arm.cross(&direction));

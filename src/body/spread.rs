@@ -41,7 +41,9 @@ impl NodalForces<'_> {
     pub(super) fn add_spread(&mut self, facets: &[Facet], wrench: &Wrench) {
         let points = facets.iter().map(|facet| fine_points(self.body, facet));
         let points: Vec<Vec<FacetPoint>> = points.collect();
-        let Some(spread) = Spread::new(points.iter().flatten(), wrench, self.body.model) else {
+        let areas = points.iter().flatten();
+        let areas = areas.map(|point| (point.position, point.vector.norm()));
+        let Some(spread) = Spread::new(areas, wrench, self.body.model) else {
             return;
         };
         for (facet, points) in facets.iter().zip(&points) {
@@ -55,6 +57,20 @@ impl NodalForces<'_> {
     }
 }
 
+impl NodalForces<'_> {
+    /// Nodes that move as a rigid body share a wrench as if each had the same area.
+    pub(super) fn add_at_reference(&mut self, nodes: &[usize], wrench: &Wrench) {
+        let places = &self.body.mesh.nodes;
+        let positions = nodes.iter().map(|&node| Vector3::from(places[node]));
+        let shares = positions.map(|position| (position, 1.0));
+        if let Some(spread) = Spread::new(shares, wrench, self.body.model) {
+            for &node in nodes {
+                self.add(node, spread.traction(places[node].into()).into(), 1.0);
+            }
+        }
+    }
+}
+
 /// Tractions as an affine function of position.
 struct Spread {
     centre: Vector3<f64>,
@@ -63,13 +79,12 @@ struct Spread {
 }
 
 impl Spread {
-    /// None if the points have no area.
-    fn new<'a>(
-        points: impl Iterator<Item = &'a FacetPoint> + Clone,
+    /// Over positions and their areas; none if there is no area.
+    fn new(
+        shares: impl Iterator<Item = (Vector3<f64>, f64)> + Clone,
         wrench: &Wrench,
         model: Model,
     ) -> Option<Self> {
-        let shares = points.map(|point| (point.position, point.vector.norm()));
         let area: f64 = shares.clone().map(|(_, area)| area).sum();
         if area <= 0.0 {
             return None;

@@ -14,12 +14,12 @@
 
 use nalgebra::Matrix3;
 
-use super::dilatation::{Dilatation, Patches, mean_gradients};
+use super::Body;
+use super::condensed_cell::Condensed;
+use super::dilatation::Patches;
+use super::element::Element;
 use super::foundation::add_foundation;
-use super::material::Lame;
-use super::quadrature::{Mapped, mapped};
 use super::sparsity::BlockMatrix;
-use super::{Body, Model};
 
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
 /// `dimension · node + axis` with ascending columns.
@@ -53,64 +53,29 @@ pub(crate) fn stiffness(body: &Body) -> sprs::CsMat<f64> {
 
 /// Adds (B3) of one cell, with (B4) where its dilatation is the cell's mean.
 fn add_cell(body: &Body, index: usize, matrix: &mut BlockMatrix) {
-    let cell = body.mesh.cell(index);
-    let material = &body.materials[body.material_of_cell[index]];
-    let Lame { lambda, shear } = material.lame(body.model);
-    let dilatation = Dilatation::of(cell.kind, body.model, material);
+    let nodes = body.mesh.cell(index).nodes;
     let depth = body.model.depth();
-
-    let ring = body.model == Model::Axisymmetric;
-
-    let count = cell.nodes.len();
-    let points = &mapped(body, cell);
-    let (volume, mean) = mean_gradients(points);
-
-    for a in 0..count {
-        for b in 0..=a {
-            let product = gradient_product(points, a, b);
-            let hoop = hoop_product(points, a, b);
-            let mut shear_part =
-                (product.transpose() + Matrix3::from_diagonal_element(product.trace())) * shear;
-            shear_part[(0, 0)] += 2.0 * shear * hoop;
-            let volume_part = match dilatation {
-                Dilatation::Pointwise if ring => divergence_product(points, a, b) * lambda,
-                Dilatation::Pointwise => product * lambda,
-                Dilatation::CellMean => mean[a] * mean[b].transpose() * (lambda * volume),
-                Dilatation::NodeMean => Matrix3::zeros(),
-            };
-            matrix.add(
-                cell.nodes[a],
-                cell.nodes[b],
-                &((shear_part + volume_part) * depth),
-            );
+    if let Some(condensed) = Condensed::of(body, index) {
+        let (axes, stiffness) = (body.mesh.dimension, condensed.stiffness * depth);
+        for (a, row) in nodes.iter().enumerate() {
+            for (b, column) in nodes.iter().enumerate().take(a + 1) {
+                let entry = |i, j| stiffness[(axes * a + i, axes * b + j)];
+                let block = Matrix3::from_fn(|i, j| match i.max(j) < axes {
+                    true if a == b => entry(i.max(j), i.min(j)),
+                    true => entry(i, j),
+                    false => 0.0,
+                });
+                matrix.add(*row, *column, &block);
+            }
+        }
+        return;
+    }
+    let element = Element::new(body, index);
+    for (a, row) in nodes.iter().enumerate() {
+        for (b, column) in nodes.iter().enumerate().take(a + 1) {
+            matrix.add(*row, *column, &(element.block(a, b) * depth));
         }
     }
-}
-
-/// `A_ab = ∫ ∇N_a ∇N_bᵀ dV` (B3).
-#[inline]
-fn gradient_product(points: &[Mapped], a: usize, b: usize) -> Matrix3<f64> {
-    let mut product = Matrix3::zeros();
-    for point in points {
-        product += point.gradients[a] * point.gradients[b].transpose() * point.volume;
-    }
-    product
-}
-
-/// `∫ d_a d_bᵀ dV` (B11).
-fn divergence_product(points: &[Mapped], a: usize, b: usize) -> Matrix3<f64> {
-    let product =
-        |point: &Mapped| point.divergence(a) * point.divergence(b).transpose() * point.volume;
-    points.iter().map(product).sum()
-}
-
-/// `∫ N_a N_b / r² dV` (B11), zero but for rings.
-fn hoop_product(points: &[Mapped], a: usize, b: usize) -> f64 {
-    let product = |point: &Mapped| match point.hoop.as_slice() {
-        [] => 0.0,
-        hoop => hoop[a] * hoop[b] * point.volume,
-    };
-    points.iter().map(product).sum()
 }
 
 #[cfg(test)]
@@ -120,16 +85,29 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::body::tests::samples::{block, distorted, facets, hold, solve};
+    use crate::body::material::Lame;
+    use crate::body::tests::samples::{block, distorted, facets, hold, mixed, solve};
     use crate::body::{CellKind, Load, Model};
 
     /// Distorted blocks of every kind in every model, with and without averaged dilatation.
     fn bodies() -> Vec<Body> {
         let mut bodies = Vec::new();
+        for mut body in [mixed(false), mixed(true)] {
+            bodies.push(body.clone());
+            body.materials[0].poisson = 0.4999;
+            bodies.push(body);
+        }
         for kind in CellKind::all() {
             for poisson in [0.3, 0.4999, -0.5] {
                 let mut body = distorted(kind);
                 body.materials[0].poisson = poisson;
+                if matches!(kind, CellKind::Quad4 | CellKind::Hex8) {
+                    let formulation = crate::body::Formulation::IncompatibleModes;
+                    bodies.push(Body {
+                        formulation,
+                        ..body.clone()
+                    });
+                }
                 if kind.dimension() == 2 {
                     let mut plate = body.clone();
                     plate.model = Model::PlaneStress { thickness: 0.1 };
@@ -287,8 +265,9 @@ mod tests {
             let mut columns: Vec<f64> = nodes.iter().map(|x| x[0]).collect();
             columns.sort_by(f64::total_cmp);
             columns.dedup();
+            let step = 2.0 / (columns.len() - 1) as f64;
             for x in &mut nodes {
-                x[0] = 0.5 * columns.iter().position(|c| *c == x[0]).unwrap() as f64;
+                x[0] = step * columns.iter().position(|c| *c == x[0]).unwrap() as f64;
             }
             body.mesh.nodes = nodes;
             let stiff = |cell: usize| usize::from(body.mesh.centroid(cell)[0] > 1.0);

@@ -4,18 +4,21 @@
 //! σ = λ θ I + 2 μ ε(u)      ε at the centre of the cell, θ the dilatation that its energy holds
 //! ```
 //!
-//! Heat and initial stress add theirs (B12). At nodes of quadratic cells it is extrapolated from where it is most exact.
+//! With (B14) λ̂ and R stand for λ and 2 μ. Heat and initial stress add theirs (B12). At nodes of quadratic cells it is extrapolated from where it is most exact.
 //!
 //! In nearly incompressible cells θ is the mean of (B4) or (B5): with `tr ε` in its
 //! place the pressure would be noise times λ.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{DVector, Matrix3, Vector3};
 
+use super::condensed_cell::Condensed;
 use super::dilatation::{Dilatation, Patches, mean_gradients};
+use super::material::Elasticity;
+use super::modes::{Modes, mapped};
 use super::prestress::Prestress;
-use super::quadrature::{Mapped, mapped, positions};
+use super::quadrature::{Mapped, positions};
 use super::reference::{Family, Point};
-use super::{Body, Cell, Lame, Model};
+use super::{Body, Cell, Model};
 
 /// Stress at the centre of each cell, in pascal, in the order xx, yy, zz, yz, xz, xy; z is
 /// the direction around the axis of axisymmetric bodies.
@@ -28,6 +31,25 @@ pub(crate) fn cell_stress(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
     stresses
 }
 
+/// Strain at the centre of each cell, in the order xx, yy, zz, yz, xz, xy, half of the angle for the
+/// last three; heat is part of it.
+#[must_use]
+pub(crate) fn cell_strain(body: &Body, displacement: &[f64]) -> Vec<[f64; 6]> {
+    let mut strains = Vec::with_capacity(body.mesh.cell_count());
+    for_each_cell(body, displacement, |_, gradient, _| {
+        let e = (gradient + gradient.transpose()) / 2.0;
+        strains.push([
+            e[(0, 0)],
+            e[(1, 1)],
+            e[(2, 2)],
+            e[(1, 2)],
+            e[(0, 2)],
+            e[(0, 1)],
+        ]);
+    });
+    strains
+}
+
 /// Shows every cell with the gradient `∂u_i/∂x_j` and the stress at its centre, in pascal.
 pub(super) fn for_each_cell(
     body: &Body,
@@ -36,37 +58,49 @@ pub(super) fn for_each_cell(
 ) {
     let field = Field { body, displacement };
     let prestress = Prestress::new(body, &body.loads);
+    let dilatations = dilatations(body, displacement);
+    for (at, cell) in body.mesh.cells().enumerate() {
+        let reference = cell.kind.reference();
+        let centre = reference.centre();
+        let amplitudes = amplitudes(body, displacement, prestress.as_ref(), at);
+        let gradient = field.gradient(cell, centre, &amplitudes);
+        let stress = field.stress(at, &gradient, dilatations[at], centre);
+        let given = prestress
+            .as_ref()
+            .map(|given| given.at(at, &reference.shape(centre)));
+        each(
+            at,
+            &gradient,
+            given.map_or(stress, |given| sum(stress, given)),
+        );
+    }
+}
+
+/// The mean dilatation that the energy of each cell sees ((B4), (B5)); none where it sees that of each point.
+pub(super) fn dilatations(body: &Body, displacement: &[f64]) -> Vec<Option<f64>> {
+    let field = Field { body, displacement };
     let patches = Patches::new(body);
     let around_nodes: Vec<f64> = patches
         .iter()
         .map(|patch| field.divergence(patch.nodes, patch.gradients))
         .collect();
-
     let cells = body.mesh.cells().zip(&body.material_of_cell);
-    for (at, (cell, &index)) in cells.enumerate() {
-        let material = &body.materials[index];
-        let gradient = field.gradient(cell, cell.kind.reference().centre());
-        let theta = match Dilatation::of(cell.kind, body.model, material) {
-            Dilatation::Pointwise => gradient.trace(),
-            Dilatation::CellMean => field.mean_dilatation(cell),
-            Dilatation::NodeMean => {
-                let around = cell
-                    .nodes
-                    .iter()
-                    .filter_map(|node| patches.find(index, *node));
-                around.map(|patch| around_nodes[patch]).sum::<f64>() / cell.nodes.len() as f64
-            }
-        };
-        let mut stress = stress_of(material.lame(body.model), body.model, &gradient, theta);
-        if let Some(prestress) = &prestress {
-            let reference = cell.kind.reference();
-            stress = sum(
-                stress,
-                prestress.at(at, &reference.shape(reference.centre())),
-            );
-        }
-        each(at, &gradient, stress);
-    }
+    let means =
+        cells.map(
+            |(cell, &index)| match Dilatation::of(body, cell.kind, &body.materials[index]) {
+                Dilatation::Pointwise => None,
+                Dilatation::CellMean => Some(field.mean_dilatation(cell)),
+                Dilatation::NodeMean => {
+                    let nodes = cell.nodes.iter();
+                    let around = nodes.filter_map(|node| patches.find(index, *node));
+                    Some(
+                        around.map(|patch| around_nodes[patch]).sum::<f64>()
+                            / cell.nodes.len() as f64,
+                    )
+                }
+            },
+        );
+    means.collect()
 }
 
 /// Stress at the nodes: the mean of the cells around each, weighted by their volume, in pascal.
@@ -79,10 +113,16 @@ pub(crate) fn nodal_stress(
     cell_stress: &[[f64; 6]],
 ) -> Vec<[f64; 6]> {
     let prestress = Prestress::new(body, &body.loads);
+    let dilatations = dilatations(body, displacement);
     let mut sums = vec![([0.0; 6], 0.0); body.mesh.nodes.len()];
     for (index, stress) in cell_stress.iter().enumerate() {
         let volume = body.mesh.volume(index);
-        let of_nodes = stress_at_nodes(body, displacement, prestress.as_ref(), (index, stress));
+        let of_nodes = stress_at_nodes(
+            body,
+            displacement,
+            prestress.as_ref(),
+            (index, dilatations[index], stress),
+        );
         for (node, stress) in body.mesh.cell(index).nodes.iter().zip(of_nodes) {
             let (sum, weight) = &mut sums[*node];
             for (total, component) in sum.iter_mut().zip(stress) {
@@ -95,37 +135,38 @@ pub(crate) fn nodal_stress(
     sums.into_iter().map(mean).collect()
 }
 
-/// What one cell has for the stress at its nodes, in pascal: that of its `centre` if it is linear. Of
-/// a quadratic cell a linear function through the points where a quadratic displacement has
+/// What one cell has for the stress at its nodes, in pascal: that of its `centre` if it is linear without modes. Of
+/// another one a linear function through the points where a quadratic displacement has
 /// nearly the strain of a cubic one (Barlow, Int. J. Numer. Meth. Engng 10 (1976) 243–251).
 pub(super) fn stress_at_nodes(
     body: &Body,
     displacement: &[f64],
     prestress: Option<&Prestress<'_>>,
-    (index, centre): (usize, &[f64; 6]),
+    (index, theta, centre): (usize, Option<f64>, &[f64; 6]),
 ) -> Vec<[f64; 6]> {
     let cell = body.mesh.cell(index);
-    if cell.kind.is_linear() {
+    if cell.kind.is_linear() && !body.has_modes(cell.kind) {
         return vec![*centre; cell.nodes.len()];
     }
-    let material = &body.materials[body.material_of_cell[index]];
-    let lame = material.lame(body.model);
     let field = Field { body, displacement };
+    let amplitudes = amplitudes(body, displacement, prestress, index);
     let linear = cell.kind.linear().reference();
     let middle = linear.centre();
     // The points are the corners, drawn in towards the centre.
+    let line = 1.0 / 3.0_f64.sqrt();
     let inward = match (linear.family, linear.dimension) {
-        (Family::Simplex, 2) => 0.5,
-        (Family::Simplex, _) => 1.0 / 5.0_f64.sqrt(),
-        _ => 1.0 / 3.0_f64.sqrt(),
+        (Family::Simplex, 2) | (Family::Pyramid, _) => [0.5; 3],
+        (Family::Simplex, _) => [1.0 / 5.0_f64.sqrt(); 3],
+        (Family::Prism, _) => [0.5, 0.5, line],
+        _ => [line; 3],
     };
-    let scaled = |at: &[f64; 3], by: f64| -> [f64; 3] {
-        std::array::from_fn(|axis| middle[axis] + by * (at[axis] - middle[axis]))
+    let scaled = |at: &[f64; 3], by: [f64; 3]| -> [f64; 3] {
+        std::array::from_fn(|axis| middle[axis] + by[axis] * (at[axis] - middle[axis]))
     };
     let points = linear.nodes.iter().map(|corner| {
         let at = scaled(corner, inward);
-        let gradient = field.gradient(cell, at);
-        let stress = stress_of(lame, body.model, &gradient, gradient.trace());
+        let gradient = field.gradient(cell, at, &amplitudes);
+        let stress = field.stress(index, &gradient, theta, at);
         match prestress {
             Some(prestress) => sum(
                 stress,
@@ -137,18 +178,24 @@ pub(super) fn stress_at_nodes(
     let points: Vec<[f64; 6]> = points.collect();
     let nodes = cell.kind.reference().nodes.iter();
     let extrapolated = nodes.map(|node| {
-        let shape = linear.shape(scaled(node, 1.0 / inward));
+        let shape = linear.extrapolation(scaled(node, inward.map(|by| 1.0 / by)));
         std::array::from_fn(|k| shape.iter().zip(&points).map(|(n, s)| n * s[k]).sum())
     });
     extrapolated.collect()
 }
 
-/// Stress of a displacement gradient with the dilatation `theta` given apart, in pascal.
-pub(super) fn stress_of(lame: Lame, model: Model, gradient: &Matrix3<f64>, theta: f64) -> [f64; 6] {
+/// Stress of a displacement gradient with the dilatation `theta` given apart, or else its own, in pascal.
+pub(super) fn stress_of(
+    elasticity: &Elasticity,
+    model: Model,
+    gradient: &Matrix3<f64>,
+    theta: Option<f64>,
+) -> [f64; 6] {
     let strain = (gradient + gradient.transpose()) / 2.0;
     let [xx, yy, zz] = [strain[(0, 0)], strain[(1, 1)], strain[(2, 2)]];
     let [yz, xz, xy] = [strain[(1, 2)], strain[(0, 2)], strain[(0, 1)]];
-    lame.stress(model, [xx, yy, zz, yz, xz, xy], theta)
+    let theta = theta.unwrap_or_else(|| gradient.trace());
+    elasticity.stress(model, [xx, yy, zz, yz, xz, xy], theta)
 }
 
 /// Two stresses together, in pascal.
@@ -178,22 +225,50 @@ pub(crate) fn principal(stress: [f64; 6]) -> [f64; 3] {
     values
 }
 
-/// `∂u_i/∂x_j` at a point of a cell; of a ring also `u_r/r`, around the axis.
+/// `∂u_i/∂x_j` at a point of a cell whose modes have the `amplitudes`; of a ring also `u_r/r`, around the axis.
 pub(super) fn gradient_of(
     body: &Body,
     displacement: &[f64],
     cell: Cell<'_>,
+    amplitudes: &[Vector3<f64>],
     mapped: &Mapped,
 ) -> Matrix3<f64> {
     let field = Field { body, displacement };
-    let terms = cell.nodes.iter().zip(&mapped.gradients);
-    let mut gradient: Matrix3<f64> = terms
-        .map(|(node, gradient)| field.at(*node) * gradient.transpose())
-        .sum();
-    let around = cell.nodes.iter().zip(&mapped.hoop);
-    let hoop = around.map(|(node, hoop)| field.at(*node).x * hoop);
+    let moved = || {
+        cell.nodes
+            .iter()
+            .map(|node| field.at(*node))
+            .chain(amplitudes.iter().copied())
+    };
+    let terms = moved().zip(&mapped.gradients);
+    let mut gradient: Matrix3<f64> = terms.map(|(u, gradient)| u * gradient.transpose()).sum();
+    let hoop = moved().zip(&mapped.hoop).map(|(u, hoop)| u.x * hoop);
     gradient[(2, 2)] += hoop.sum::<f64>();
     gradient
+}
+
+/// α of a cell under a displacement of the body, in metre; none if it has no modes.
+pub(super) fn amplitudes(
+    body: &Body,
+    displacement: &[f64],
+    prestress: Option<&Prestress<'_>>,
+    index: usize,
+) -> Vec<Vector3<f64>> {
+    let Some(condensed) = Condensed::of(body, index) else {
+        return Vec::new();
+    };
+    let axes = body.mesh.dimension;
+    let nodes = body.mesh.cell(index).nodes.iter();
+    let own = nodes.flat_map(|node| &displacement[axes * node..axes * (node + 1)]);
+    let own = DVector::from_iterator(condensed.stiffness.nrows(), own.copied());
+    let forces = match prestress {
+        Some(prestress) => prestress.forces(index),
+        None => vec![0.0; own.len() + axes * axes],
+    };
+    let amplitudes = condensed.amplitudes(&own, &forces);
+    let of_modes = amplitudes.as_slice().chunks(axes);
+    let vector = |alpha: &[f64]| Vector3::from_fn(|k, _| alpha.get(k).copied().unwrap_or(0.0));
+    of_modes.map(vector).collect()
 }
 
 /// A displacement of a body's nodes.
@@ -218,10 +293,31 @@ impl Field<'_> {
     }
 
     /// `∂u_i/∂x_j` at a reference position of a cell; of a ring also `u_r/r`, around the axis.
-    fn gradient(&self, cell: Cell<'_>, at: [f64; 3]) -> Matrix3<f64> {
+    fn gradient(&self, cell: Cell<'_>, at: [f64; 3], amplitudes: &[Vector3<f64>]) -> Matrix3<f64> {
         let positions = positions(&self.body.mesh, cell.nodes);
-        let mapped = Point::at(cell.kind.reference(), at, 1.0).map(self.body.model, &positions);
-        gradient_of(self.body, self.displacement, cell, &mapped)
+        let point = Point::at(cell.kind.reference(), at, 1.0);
+        let modes = Modes::of(self.body, cell);
+        let mapped = point.map_with(self.body.model, &positions, modes.as_ref());
+        gradient_of(self.body, self.displacement, cell, amplitudes, &mapped)
+    }
+
+    /// Stress of a gradient at a reference position of a cell, in pascal.
+    fn stress(
+        &self,
+        cell: usize,
+        gradient: &Matrix3<f64>,
+        theta: Option<f64>,
+        at: [f64; 3],
+    ) -> [f64; 6] {
+        let body = self.body;
+        let material = &body.materials[body.material_of_cell[cell]];
+        let position = body.mesh.in_space(cell, at);
+        stress_of(
+            &material.elasticity(body.model, position),
+            body.model,
+            gradient,
+            theta,
+        )
     }
 
     /// Mean of the divergence over a cell (B4).

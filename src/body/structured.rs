@@ -16,8 +16,24 @@ use crate::error::{Error, check_finite};
 /// Most cells that a generator makes; beyond this the input is taken for a slip of the pen.
 const MOST_CELLS: usize = 50_000_000;
 
+/// Sides of a box.
+const SIDES: [(&str, &str); 3] = [("left", "right"), ("front", "back"), ("bottom", "top")];
+
 /// The two triangles of a quadrilateral.
 const TRIANGLES: [&[usize]; 2] = [&[0, 1, 2], &[0, 2, 3]];
+
+/// The two prisms of a hexahedron.
+const PRISMS: [&[usize]; 2] = [&[0, 1, 2, 4, 5, 6], &[0, 2, 3, 4, 6, 7]];
+
+/// The six pyramids of a hexahedron, on its faces and with the apex in its middle.
+const PYRAMIDS: [&[usize]; 6] = [
+    &[0, 1, 2, 3, 26],
+    &[4, 7, 6, 5, 26],
+    &[0, 4, 5, 1, 26],
+    &[1, 5, 6, 2, 26],
+    &[2, 6, 7, 3, 26],
+    &[3, 7, 4, 0, 26],
+];
 
 /// The six tetrahedra of a hexahedron, one per path from node 0 to node 6 along its edges.
 const KUHN: [&[usize]; 6] = [
@@ -92,7 +108,8 @@ pub fn rectangle(xs: &[f64], ys: &[f64], kind: CellKind) -> Result<Mesh, Error> 
         return Err(wrong_dimension(kind, 2));
     }
     check_axes(&[("x", xs), ("y", ys)])?;
-    let mut mesh = cells([xs, ys, &[0.0]], kind);
+    let axes = [xs, ys, &[0.0]];
+    let mut mesh = cells(axes, &vec![kind; blocks(axes).count()]);
     name_groups(&mut mesh, &[("left", "right"), ("bottom", "top")]);
     Ok(mesh)
 }
@@ -104,44 +121,66 @@ pub fn rectangle(xs: &[f64], ys: &[f64], kind: CellKind) -> Result<Mesh, Error> 
 /// Coordinates that are not finite, not increasing or fewer than two; a kind that is not solid;
 /// too many cells.
 pub fn box_mesh(xs: &[f64], ys: &[f64], zs: &[f64], kind: CellKind) -> Result<Mesh, Error> {
-    if kind.dimension() != 3 {
-        return Err(wrong_dimension(kind, 3));
-    }
+    mixed_box(xs, ys, zs, |_| kind)
+}
+
+/// A box whose blocks, numbered along x, y and z, are cut into cells of different kinds, all linear or all
+/// quadratic. Prisms have triangles above and below, pyramids none on the surface of their block.
+///
+/// # Errors
+///
+/// As of [`box_mesh`]. Faces that do not fit are a matter of the body on the mesh.
+pub fn mixed_box(
+    xs: &[f64],
+    ys: &[f64],
+    zs: &[f64],
+    kind: impl Fn([usize; 3]) -> CellKind,
+) -> Result<Mesh, Error> {
     check_axes(&[("x", xs), ("y", ys), ("z", zs)])?;
-    let mut mesh = cells([xs, ys, zs], kind);
-    let sides = [("left", "right"), ("front", "back"), ("bottom", "top")];
-    name_groups(&mut mesh, &sides);
+    let axes = [xs, ys, zs];
+    let of_blocks: Vec<CellKind> = blocks(axes).map(kind).collect();
+    if let Some(plane) = of_blocks.iter().find(|kind| kind.dimension() != 3) {
+        return Err(wrong_dimension(*plane, 3));
+    }
+    let mut mesh = cells(axes, &of_blocks);
+    name_groups(&mut mesh, &SIDES);
     Ok(mesh)
 }
 
-/// The cells between grid lines, x fastest; an axis of one line has none.
-fn cells(axes: [&[f64]; 3], kind: CellKind) -> Mesh {
-    let lattice = Lattice::new(axes, kind);
-    let mut mesh = Mesh::new(kind.dimension(), lattice.positions());
-    let layers = axes.map(|axis| (axis.len() - 1).max(1));
-    for k in 0..layers[2] {
-        for j in 0..layers[1] {
-            for i in 0..layers[0] {
-                for corners in parts(kind) {
-                    mesh.push_cell(kind, &lattice.cell([i, j, k], kind, corners));
-                }
-            }
+/// The blocks between grid lines, x fastest; an axis of one line has one.
+fn blocks(axes: [&[f64]; 3]) -> impl Iterator<Item = [usize; 3]> {
+    let [nx, ny, nz] = axes.map(|axis| (axis.len() - 1).max(1));
+    let row = move |j, k| (0..nx).map(move |i| [i, j, k]);
+    (0..nz).flat_map(move |k| (0..ny).flat_map(move |j| row(j, k)))
+}
+
+/// The cells of blocks of one kind each.
+fn cells(axes: [&[f64]; 3], of_blocks: &[CellKind]) -> Mesh {
+    let lattice = Lattice::new(axes, of_blocks);
+    let dimension = of_blocks.first().map_or(3, |kind| kind.dimension());
+    let mut mesh = Mesh::new(dimension, lattice.positions());
+    for (block, &kind) in blocks(axes).zip(of_blocks) {
+        for corners in parts(kind) {
+            mesh.push_cell(kind, &lattice.cell(block, kind, corners));
         }
     }
     mesh.drop_lone_nodes();
     mesh
 }
 
-/// Corners of the cells that share a quadrilateral or hexahedron; none if it is one itself.
+/// Corners of the cells that share a quadrilateral or hexahedron, among its nodes.
 fn parts(kind: CellKind) -> &'static [&'static [usize]] {
-    match (kind.is_tensor_product(), kind.dimension()) {
-        (true, _) => &[&[]],
-        (false, 2) => &TRIANGLES,
-        (false, _) => &KUHN,
+    match kind.linear() {
+        CellKind::Tri3 => &TRIANGLES,
+        CellKind::Tet4 => &KUHN,
+        CellKind::Prism6 => &PRISMS,
+        CellKind::Pyramid5 => &PYRAMIDS,
+        CellKind::Quad4 => &[&[0, 1, 2, 3]],
+        _ => &[&[0, 1, 2, 3, 4, 5, 6, 7]],
     }
 }
 
-/// The points where nodes may stand: those of the grid, for quadratic cells also half way.
+/// The points where nodes may stand: those of the grid, for quadratic cells and for pyramids also half way.
 struct Lattice {
     lines: [Vec<f64>; 3],
     /// Steps of the lattice per cell.
@@ -149,19 +188,22 @@ struct Lattice {
 }
 
 impl Lattice {
-    fn new(axes: [&[f64]; 3], kind: CellKind) -> Self {
+    fn new(axes: [&[f64]; 3], kinds: &[CellKind]) -> Self {
         let halved = |axis: &[f64]| {
             let pairs = axis.windows(2);
             let inner = pairs.flat_map(|pair| [(pair[0] + pair[1]) / 2.0, pair[1]]);
             axis.first().copied().into_iter().chain(inner).collect()
         };
-        if kind.is_linear() {
-            let lines = axes.map(<[f64]>::to_vec);
-            return Self { lines, steps: 1 };
+        let any = |is: fn(&CellKind) -> bool| u32::from(kinds.iter().any(is));
+        let halvings =
+            any(|kind| !kind.is_linear()) + any(|kind| kind.linear() == CellKind::Pyramid5);
+        let mut lines = axes.map(<[f64]>::to_vec);
+        for _ in 0..halvings {
+            lines = lines.map(|axis| halved(&axis));
         }
         Self {
-            lines: axes.map(halved),
-            steps: 2,
+            lines,
+            steps: 1 << halvings,
         }
     }
 
@@ -172,23 +214,15 @@ impl Lattice {
         zs.iter().flat_map(|z| layer(*z)).collect()
     }
 
-    /// Lattice points of a cell's nodes; `corners` are those of a simplex in its block.
+    /// Lattice points of a cell's nodes; `corners` are its own among the nodes of its block.
     fn cell(&self, block: [usize; 3], kind: CellKind, corners: &[usize]) -> Vec<usize> {
-        let corner = |corner: usize| {
-            let at = CellKind::Hex8.position(corner);
-            at.map(|c| (c + 1.0) / 2.0)
-        };
+        let linear = kind.linear().reference();
         let within = |node: usize| {
-            let at = kind.position(node);
-            let Some((first, rest)) = corners.split_first() else {
-                return at.map(|c| (c + 1.0) / 2.0);
-            };
-            let origin = corner(*first);
-            let mut within = origin;
-            for (share, other) in at.into_iter().zip(rest) {
-                let other = corner(*other);
-                for axis in 0..3 {
-                    within[axis] += share * (other[axis] - origin[axis]);
+            let mut within = [0.0; 3];
+            for (shape, corner) in linear.shape(kind.position(node)).iter().zip(corners) {
+                let corner = CellKind::Hex27.position(*corner);
+                for (along, c) in within.iter_mut().zip(corner) {
+                    *along += shape * (c + 1.0) / 2.0;
                 }
             }
             within

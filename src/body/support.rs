@@ -1,6 +1,6 @@
 //! Prescribed displacements, component by component.
 
-use super::{Body, Support, held_by_axis};
+use super::{Body, Support, dependence, held_by_axis};
 use crate::error::Error;
 
 /// Prescribed displacement per unknown `dimension · node + axis`, in metre; `None` where free.
@@ -13,6 +13,9 @@ use crate::error::Error;
 /// (equal ones are fine), [`Error::UnknownIndex`] for a node that does not exist,
 /// [`Error::OutOfRange`] for a support that moves a node off the axis.
 pub(crate) fn prescribed(body: &Body) -> Result<Vec<Option<f64>>, Error> {
+    if let Some(dependence) = dependence(body)? {
+        return Ok(dependence.given(&dependence.values(|_| 1.0)));
+    }
     let mesh = &body.mesh;
     let mut prescribed = prescribed_by(&body.supports, mesh.dimension, mesh.nodes.len())?;
     for unknown in held_by_axis(body) {
@@ -90,6 +93,14 @@ impl Support {
         };
         [0, 1, 2].map(|axis| self.displacement[axis].map(|u| u + offset[axis]))
     }
+
+    /// Direction of a component at the node of this number in the list.
+    #[must_use]
+    pub fn direction(&self, at: usize, component: usize) -> [f64; 3] {
+        let mut axis = [0.0; 3];
+        axis[component] = 1.0;
+        self.axes.get(at).map_or(axis, |axes| axes[component])
+    }
 }
 
 fn contradiction(supports: [&Support; 2], node: usize, axis: usize, values: [f64; 2]) -> Error {
@@ -113,6 +124,7 @@ mod tests {
             nodes: nodes.to_vec(),
             displacement,
             offsets: Vec::new(),
+            axes: Vec::new(),
         }
     }
 

@@ -9,16 +9,17 @@ use dpana::Variation;
 
 use super::outputs::{check_output, say, write_table};
 use super::progress::Progress;
-use super::scene_file::read_scene;
+use super::scene_file::{half_space_scene, read_scene};
 
 #[derive(Args)]
 pub(crate) struct Cases {
-    /// Scene in JSON; `-` reads it from standard input, without load steps.
+    /// Scene in JSON, of bodies or of half-spaces; `-` reads it from standard input, without load steps.
     scene: PathBuf,
     /// Quantity and its values: `friction=0.1:0.9:17` (from, to, how many) or `gap=0,1e-3`.
     /// Given again, all combinations are solved. Quantities: friction, gap,
     /// contacts[0].friction, contacts[0].gap, contacts[0].x (motion of the obstacle),
-    /// bodies[0].loads[0] and bodies[0].supports[0] (factors).
+    /// bodies[0].loads[0] and bodies[0].supports[0] (factors); of half-spaces load, approach, friction,
+    /// shift_x, shift_y, force_x, force_y.
     #[arg(long, value_name = "NAME=VALUES", required = true)]
     vary: Vec<String>,
     /// Write the table to this file: JSON if it ends so, else CSV; `-` is standard output.
@@ -31,10 +32,11 @@ pub(crate) fn cases(arguments: &Cases) -> Result<ExitCode, Box<dyn Error>> {
     let variations = arguments.vary.iter().map(|text| variation(text));
     let variations: Vec<Variation> = variations.collect::<Result<_, _>>()?;
     let progress = Progress::new(false);
-    let scene = read_scene(&arguments.scene)?;
-    let table = dpana::cases_watched(&scene, &variations, |done, all| {
-        progress.show(&format!("{done} of {all} cases"));
-    })?;
+    let show = |done: usize, all: usize| progress.show(&format!("{done} of {all} cases"));
+    let table = match half_space_scene(&arguments.scene)? {
+        Some(scene) => dpana::half_space_cases(&scene, &variations, show)?,
+        None => dpana::cases_watched(&read_scene(&arguments.scene)?, &variations, show)?,
+    };
     drop(progress);
     write_table(&arguments.out, &table)?;
     let certified = dpana::report::Cell::Word("certified".into());

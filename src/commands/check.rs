@@ -5,10 +5,15 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::time::Instant;
 
 use clap::Args;
+use dpana::faer::Mat;
 
 use super::scene_file::read_scene;
+
+/// Rows of the matrices whose product tells how fast the machine is.
+const SAMPLE: usize = 400;
 
 #[derive(Args)]
 pub(crate) struct Check {
@@ -41,26 +46,34 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
             )?;
         }
     }
-    for (at, (contact, stated)) in mechanics.contacts.iter().zip(&scene.contacts).enumerate() {
+    for (at, contact) in mechanics.contacts.iter().enumerate() {
+        let stated = scene.contacts.get(at).map(|stated| stated.group.as_str());
         let contacts = surface.nodes.iter().filter(|node| node.pair == at).count();
         writeln!(
             out,
-            "contact `{}`: {} facets, friction {}, {contacts} contacts",
-            stated.group,
+            "contact `{}`: {} facets, {}, {contacts} contacts",
+            stated.unwrap_or(&contact.place),
             contact.facets.len(),
-            contact.friction,
+            match contact.law.words(contact.friction) {
+                Some(law) => format!("law {law}"),
+                None => format!("friction {}", contact.friction),
+            },
         )?;
     }
     for note in &mechanics.notes {
         writeln!(out, "note: {note}")?;
     }
-    let (contacts, gigabytes) = (surface.nodes.len(), checked.dense_bytes as f64 * 1e-9);
-    if gigabytes >= 0.1 {
-        writeln!(
-            out,
-            "condensed problem: {contacts} contacts, {gigabytes:.1} GB"
-        )?;
-    }
+    let estimate = &checked.estimate;
+    let gigabytes = estimate.bytes as f64 * 1e-9;
+    writeln!(
+        out,
+        "estimate: {} unknowns, {} contacts, {gigabytes:.2} GB, of which the condensed problem {:.2} GB, \
+         {} a factorisation and its condensation",
+        estimate.unknowns,
+        estimate.contacts,
+        checked.dense_bytes as f64 * 1e-9,
+        about(estimate.operations / rate()),
+    )?;
     if let Some(available) = available().filter(|available| gigabytes > *available) {
         writeln!(
             out,
@@ -69,6 +82,32 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
         )?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// Seconds in words.
+fn about(seconds: f64) -> String {
+    match seconds {
+        ..1.0 => "less than a second for".to_owned(),
+        ..120.0 => format!("about {seconds:.0} s for"),
+        ..7200.0 => format!("about {:.0} min for", seconds / 60.0),
+        _ => format!("about {:.0} h for", seconds / 3600.0),
+    }
+}
+
+/// Additions and multiplications a second that a factorisation makes of this machine: half of those of a
+/// product of matrices.
+fn rate() -> f64 {
+    let matrix = Mat::<f64>::from_fn(SAMPLE, SAMPLE, |row, column| (row * column % 7) as f64);
+    let start = Instant::now();
+    let product = &matrix * &matrix;
+    let seconds = start.elapsed().as_secs_f64().max(1e-6);
+    // Read, so that it is computed.
+    let read = if product[(0, 0)].is_finite() {
+        1.0
+    } else {
+        0.0
+    };
+    read * (SAMPLE as f64).powi(3) / seconds
 }
 
 /// Memory that is free, in gigabytes; none where the system does not say so.

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::half_space::{HalfSpaceOutcome, HalfSpaceProblem};
-use dpana::report::{half_space_fields, npy, replace_file, vtu};
+use dpana::report::{half_space_fields, npy, replace_file, spectrum_table, vtu};
 use dpana::scene::HalfSpaceScene;
 
 use super::outputs::{check_output, say, write_output, write_table};
@@ -29,6 +29,10 @@ pub(crate) struct HalfSpace {
     /// Write the same as NumPy arrays of the last step: `FILE_pressure.npy` and so on for `FILE.npy`.
     #[arg(long, value_name = "FILE")]
     npy: Option<PathBuf>,
+    /// Write the power spectrum of the gap before loading to this file, a row per ring of waves: JSON if it
+    /// ends so, else CSV.
+    #[arg(long, value_name = "FILE")]
+    spectrum: Option<PathBuf>,
 }
 
 pub(crate) fn half_space(arguments: &HalfSpace) -> Result<ExitCode, Box<dyn Error>> {
@@ -37,6 +41,7 @@ pub(crate) fn half_space(arguments: &HalfSpace) -> Result<ExitCode, Box<dyn Erro
         ("--table", &arguments.table),
         ("--vti", &arguments.vti),
         ("--npy", &arguments.npy),
+        ("--spectrum", &arguments.spectrum),
     ];
     for (option, path) in outputs {
         if let Some(path) = path {
@@ -72,6 +77,9 @@ fn write_fields(
     problem: &HalfSpaceProblem,
     outcome: &HalfSpaceOutcome,
 ) -> Result<(), dpana::Error> {
+    if let Some(path) = arguments.spectrum.as_ref().filter(|_| number == 1) {
+        write_table(path, &spectrum_table(problem)?)?;
+    }
     let fields = half_space_fields(problem, outcome);
     if let Some(path) = &arguments.vti {
         let path = match count {

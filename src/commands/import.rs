@@ -41,7 +41,12 @@ pub(crate) fn import(arguments: &Import) -> Result<ExitCode, Box<dyn Error>> {
                 body.name,
                 folder.join(&file).display()
             )?;
-            body.mesh = MeshSource::File { file, scale: 1.0 };
+            body.mesh = MeshSource::File {
+                file,
+                scale: 1.0,
+                split: None,
+                groups: Vec::new(),
+            };
         }
     }
     replace_file(&arguments.out, &scene.to_json()?)?;

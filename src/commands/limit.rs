@@ -16,13 +16,20 @@ pub(crate) struct Limit {
     /// Write the limits to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    /// Rigid bodies alone: an upper bound, without any stiffness.
+    #[arg(long)]
+    rigid: bool,
 }
 
 pub(crate) fn limit(arguments: &Limit) -> Result<ExitCode, Box<dyn Error>> {
     if let Some(output) = &arguments.report {
         check_output("--report", output, &arguments.scene)?;
     }
-    let limits = dpana::limit(&read_scene(&arguments.scene)?)?;
+    let scene = read_scene(&arguments.scene)?;
+    let limits = match arguments.rigid {
+        true => dpana::rigid_limit(&scene)?,
+        false => dpana::limit(&scene)?,
+    };
     if let Some(path) = &arguments.report {
         write_output(path, &limits.to_json())?;
     }

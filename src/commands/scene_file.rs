@@ -5,7 +5,7 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use dpana::deck::Deck;
-use dpana::scene::Scene;
+use dpana::scene::{HalfSpaceScene, Scene};
 
 use super::outputs::is_standard;
 
@@ -26,6 +26,14 @@ pub(super) fn read_scene(path: &Path) -> Result<Scene, Box<dyn Error>> {
     Ok(match is_deck(path) {
         true => tell(Deck::from_file(path)?).scene,
         false => Scene::from_file(path)?,
+    })
+}
+
+/// Reads a scene of half-spaces from a file, if it is one.
+pub(super) fn half_space_scene(path: &Path) -> Result<Option<HalfSpaceScene>, Box<dyn Error>> {
+    Ok(match !is_deck(path) && HalfSpaceScene::is_in(path) {
+        true => Some(HalfSpaceScene::from_file(path)?),
+        false => None,
     })
 }
 

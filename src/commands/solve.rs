@@ -2,14 +2,19 @@
 
 use std::error::Error;
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::report::{self, Cell, Continuity, Page, Table, replace_file, vtu};
+use dpana::report::{
+    self, Accuracy, Cell, Continuity, Page, Reason, Report, Table, replace_file, vtu,
+};
 use dpana::scene::{SavedState, Scene, SceneBody, SceneModel};
 use dpana::{Solution, Status};
 
+use super::accuracy;
+use super::accuracy::part;
 use super::interrupt;
 use super::outputs::{check_file, check_output, is_standard, say, write_output, write_table};
 use super::progress::Progress;
@@ -29,6 +34,9 @@ pub(crate) struct Solve {
     /// them (`FILE.pvd`, `FILE_contact.pvd`). A name without an ending gets `.vtu`.
     #[arg(long, value_name = "FILE")]
     vtu: Option<PathBuf>,
+    /// Name the arrays of `--vtu` as Abaqus does: U, S, MISES, CPRESS, COPEN, CSLIP, CSTATUS and so on.
+    #[arg(long, requires = "vtu")]
+    abaqus_names: bool,
     /// Draw the deformed bodies and the contact pressure to this file, in SVG; bodies in 2D only.
     ///
     /// A scene with load steps gets the drawing of its last state.
@@ -70,9 +78,45 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
+    /// Print the whole report on standard output, in JSON, and no summary.
+    #[arg(long, conflicts_with = "report")]
+    json: bool,
+    /// Say what the totals gain per unit of friction, gap, load, support, obstacle motion and modulus, also
+    /// as columns of `--table`; of scenes without load steps.
+    #[arg(long)]
+    sensitivity: bool,
+    /// Refine the meshes until the total of `--of` is as accurate as this, such as `1%` or `0.01`: every
+    /// cell is split, and the total extrapolated with the rate observed. All outputs are of the finest mesh.
+    #[arg(long, value_name = "PART", value_parser = part, conflicts_with_all = ["restart", "state"])]
+    accuracy: Option<f64>,
+    /// Total that should be accurate: a column of `--table` such as peak_pressure or normal, `energy`, or
+    /// a displacement at a point such as `u_x@0.5,0`.
+    #[arg(
+        long,
+        value_name = "TOTAL",
+        default_value = "normal",
+        requires = "accuracy"
+    )]
+    of: String,
+    /// Mesh files in place of the scene's one, from coarse to fine, three at least; cells are split where none
+    /// are given.
+    #[arg(
+        long,
+        value_name = "FILES",
+        value_delimiter = ',',
+        requires = "accuracy"
+    )]
+    meshes: Vec<PathBuf>,
+    /// Memory that `--accuracy` may fill, in GB; three quarters of what is free when left out.
+    #[arg(long, value_name = "GB", requires = "accuracy")]
+    memory: Option<f64>,
     /// Print no summary and no progress: the exit status says whether the state is certified.
     #[arg(short, long)]
     quiet: bool,
+    /// Print the sweeps of the outer loop below the summary (of the last state, where the scene has
+    /// load steps).
+    #[arg(short, long, conflicts_with_all = ["quiet", "json"])]
+    verbose: bool,
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
@@ -87,56 +131,100 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     let mut scene = read_scene(&arguments.scene)?;
     scene.settings.interrupt = interrupt::on_ctrl_c();
     check_drawable(arguments, &scene)?;
+    if arguments.sensitivity && scene.steps.is_some() {
+        return Err("--sensitivity: a load history; expected a scene without steps".into());
+    }
     let from = match &arguments.restart {
         None => None,
         Some(path) => Some(saved_state(path)?),
     };
-    let mut jumps = Vec::new();
     let mut states = States::new(arguments, axes, &scene, from.as_ref())?;
-    let progress = Progress::new(arguments.quiet);
-    let solution = dpana::solve_steps(&scene, from.as_ref(), |solution| {
-        if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
-            let (number, all) = (step.number(), steps.at.len());
-            progress.show(&format!("step {number} of {all}, at {}", step.at()));
-            // That of the last state is part of the report.
-            if arguments.starts.is_some() && number < all {
-                jumps.extend(jump(solution)?.map(|words| format!("step {number:<11}{words}")));
-            }
-        }
-        states.add(solution)
-    });
+    let progress = Progress::of_stages(arguments.quiet);
+    let (solution, accuracy) = solved(&scene, from.as_ref(), &mut states, &progress)?;
     drop(progress);
-    let solution = solution?;
-    let mut report = solution.report()?;
+    let mut report = states.last.take().map_or_else(|| solution.report(), Ok)?;
     if let Some(starts) = arguments.starts {
         report.trust = solution.trust(starts)?;
     }
     if arguments.quality {
         report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
     }
+    let missed = accuracy.as_ref().is_some_and(|accuracy| !accuracy.reached);
+    report.accuracy = accuracy;
     if let Some(path) = &arguments.report {
         write_output(path, &report.to_json())?;
     }
     if let Some(path) = arguments.table.as_ref().filter(|path| is_standard(path)) {
         write_table(path, &states.table)?;
     }
-    if !arguments.quiet {
+    if !arguments.quiet && !arguments.json {
         let outputs = || arguments.report.iter().chain(&arguments.table);
         say(outputs(), report.summary().trim_end())?;
-        for jump in jumps {
-            say(outputs(), &jump)?;
+        for jump in &states.jumps {
+            say(outputs(), jump)?;
+        }
+        if arguments.verbose {
+            say(outputs(), sweeps(&report).trim_end())?;
         }
     }
+    if let Some(hint) = restart_hint(arguments, &report) {
+        // With standard error closed there is nobody left to tell.
+        let _ = writeln!(io::stderr(), "{hint}");
+    }
     Ok(match solution.status() {
+        Status::Certified if missed => ExitCode::from(1),
         Status::Certified => ExitCode::SUCCESS,
         Status::NotConverged | Status::NoEquilibrium | Status::CouplingFault => ExitCode::from(1),
     })
 }
 
+/// The last state, or that on the finest mesh with what the meshes say of a total.
+fn solved(
+    scene: &Scene,
+    from: Option<&SavedState>,
+    states: &mut States<'_>,
+    progress: &Progress,
+) -> Result<(Solution, Option<Accuracy>), Box<dyn Error>> {
+    let arguments = states.arguments;
+    if let Some(within) = arguments.accuracy {
+        let request = arguments.request(within)?;
+        let (solution, accuracy) = accuracy::refine(scene, &request, progress)?;
+        states.add(&solution)?;
+        return Ok((solution, Some(accuracy)));
+    }
+    let solution = dpana::solve_steps(scene, from, |solution| {
+        if let (Some(step), Some(steps)) = (solution.step(), &scene.steps) {
+            let (number, all) = (step.number(), steps.at.len());
+            progress.show(&format!("step {number} of {all}, at {}", step.at()));
+            // That of the last state is part of the report.
+            if arguments.starts.is_some() && number < all {
+                let jump = jump(solution)?;
+                states
+                    .jumps
+                    .extend(jump.map(|words| format!("step {number:<11}{words}")));
+            }
+        }
+        states.add(solution)
+    });
+    Ok((solution?, None))
+}
+
 impl Solve {
+    fn request(&self, within: f64) -> Result<dpana::Request, String> {
+        Ok(dpana::Request {
+            of: self.of.clone(),
+            within,
+            memory: accuracy::memory(self.memory)?,
+            meshes: self.meshes.clone(),
+        })
+    }
+
     /// The same with an ending where a file needs one.
     fn completed(&self) -> Self {
         let mut completed = self.clone();
+        if completed.json {
+            completed.report = Some(PathBuf::from("-"));
+        }
         if let Some(vtu) = &mut completed.vtu
             && vtu.extension().is_none()
             && !is_standard(vtu)
@@ -146,6 +234,41 @@ impl Solve {
         }
         completed
     }
+}
+
+/// A line per sweep of the outer loop.
+fn sweeps(report: &Report) -> String {
+    let mut text =
+        String::from("sweep  residual   cone iterations  Newton steps  open  stick   slip\n");
+    for (number, sweep) in (1..).zip(&report.history) {
+        let cone = sweep.coulomb_iterations + sweep.normal_iterations + sweep.friction_iterations;
+        text += &format!(
+            "{number:5}  {:8.1e}  {cone:16}  {:12}  {:4}  {:5}  {:5}\n",
+            sweep.residual, sweep.newton_steps, sweep.open, sweep.stick, sweep.slip
+        );
+    }
+    text
+}
+
+/// How to go on with a load history that was interrupted, or ran out of its time.
+fn restart_hint(arguments: &Solve, report: &Report) -> Option<String> {
+    let reason = report.shortfall.as_ref()?.reason;
+    report.step.as_ref()?;
+    if !matches!(reason, Reason::Interrupted | Reason::TimeLimit) || arguments.quiet {
+        return None;
+    }
+    let scene = arguments.scene.display();
+    Some(match &arguments.state {
+        Some(state) if state.exists() => {
+            let state = state.display();
+            format!("go on with: dpana solve {scene} --restart {state} --state {state}")
+        }
+        _ => {
+            "go on: from the first step only; with `--state FILE` every certified step is kept to \
+            `--restart` from"
+                .to_owned()
+        }
+    })
 }
 
 /// What there is to say of jumps on the way to a state.
@@ -162,6 +285,10 @@ struct States<'a> {
     table: Table,
     files: Vec<(f64, PathBuf)>,
     page: Option<Page>,
+    /// Report of the last state.
+    last: Option<Report>,
+    /// Of all steps but the last.
+    jumps: Vec<String>,
 }
 
 impl<'a> States<'a> {
@@ -178,6 +305,8 @@ impl<'a> States<'a> {
             table: Table::default(),
             files: Vec::new(),
             page: arguments.page.as_deref().map(Page::new),
+            last: None,
+            jumps: Vec::new(),
         };
         let (Some(from), Some(steps)) = (from, &scene.steps) else {
             return Ok(states);
@@ -197,9 +326,22 @@ impl<'a> States<'a> {
         Ok(states)
     }
 
+    fn write_vtu(&self, solution: &Solution, path: &Path) -> Result<(), dpana::Error> {
+        if !self.arguments.abaqus_names {
+            return solution.write_vtu(path);
+        }
+        let [bodies, contact] = solution.to_vtu()?;
+        replace_file(path, &vtu::abaqus_names(&bodies))?;
+        replace_file(&vtu::contact_path(path), &vtu::abaqus_names(&contact))
+    }
+
     /// Takes up a state; every file is whole after it.
     fn add(&mut self, solution: &Solution) -> Result<(), dpana::Error> {
-        let (arguments, report) = (self.arguments, solution.report()?);
+        let arguments = self.arguments;
+        let mut report = solution.report()?;
+        if arguments.sensitivity {
+            report.sensitivity = solution.sensitivities()?.unwrap_or_default();
+        }
         let given = match &report.step {
             None => Vec::new(),
             Some(step) => {
@@ -229,7 +371,7 @@ impl<'a> States<'a> {
         }
         if let (Some(path), Some(step)) = (&arguments.vtu, &report.step) {
             let of_step = vtu::step_path(path, step.number);
-            solution.write_vtu(&of_step)?;
+            self.write_vtu(solution, &of_step)?;
             self.files.push((step.at, of_step));
             replace_file(&path.with_extension("pvd"), &vtu::series(&self.files))?;
             let contacts = self.files.iter();
@@ -238,7 +380,7 @@ impl<'a> States<'a> {
             let of_contact = vtu::contact_path(path).with_extension("pvd");
             replace_file(&of_contact, &series)?;
         } else if let Some(path) = &arguments.vtu {
-            solution.write_vtu(path)?;
+            self.write_vtu(solution, path)?;
         }
         if let Some(path) = &arguments.svg {
             replace_file(path, &solution.to_svg()?)?;
@@ -246,6 +388,7 @@ impl<'a> States<'a> {
         if let Some(page) = &mut self.page {
             solution.add_to_page(page)?;
         }
+        self.last = Some(report);
         // Last, so that whoever takes the history on from here finds all that came before.
         match (&arguments.state, solution.saved_state()) {
             (Some(path), Some(state)) if solution.status() == Status::Certified => {

@@ -47,6 +47,10 @@ pub(crate) struct Study {
     /// Compare loops on the finest mesh with at most so many contact unknowns.
     #[arg(long, value_name = "N")]
     loop_unknowns: Option<usize>,
+    /// Compare with half-spaces in place of the bodies, and do nothing else: a row per contact in
+    /// `half_space.csv` of the folder.
+    #[arg(long)]
+    half_space: bool,
     /// Two meshes, two tolerances, two coefficients, nothing repeated.
     #[arg(long)]
     quick: bool,
@@ -58,6 +62,9 @@ pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     check_refinable(arguments, &scene)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("--out {}: {error}", arguments.out.display()))?;
+    if arguments.half_space {
+        return beside_half_spaces(&scene, &arguments.out);
+    }
     let progress = Progress::new(false);
     let study = dpana::study(&scene, &plan, |part| progress.show(&words(part)))?;
     drop(progress);
@@ -77,6 +84,16 @@ pub(crate) fn study(arguments: &Study) -> Result<ExitCode, Box<dyn Error>> {
     let certified =
         |mesh: &dpana::report::StudiedMesh| mesh.status == dpana::report::ReportedStatus::Certified;
     Ok(match study.meshes.iter().all(certified) {
+        true => ExitCode::SUCCESS,
+        false => ExitCode::from(1),
+    })
+}
+
+fn beside_half_spaces(scene: &Scene, folder: &Path) -> Result<ExitCode, Box<dyn Error>> {
+    let fit = study::half_space_fit(scene)?;
+    replace_file(&folder.join("half_space.csv"), &fit.contacts.to_csv())?;
+    writeln!(io::stdout(), "{}", fit.sentence())?;
+    Ok(match fit.certified() {
         true => ExitCode::SUCCESS,
         false => ExitCode::from(1),
     })

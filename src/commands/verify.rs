@@ -5,21 +5,36 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
-use dpana::verify::{Reach, hard_cases};
+use dpana::report::MetamorphicBattery;
+use dpana::verify::{Reach, hard_cases, metamorphic};
 
 use super::outputs::{check_writable, say, write_output};
+
+/// Random scenes whose changes belong to the hard cases.
+const CHANGED: usize = 250;
 
 #[derive(Args)]
 pub(crate) struct Verify {
     /// Leave out the finest meshes.
     #[arg(long)]
     quick: bool,
-    /// Solve the hard cases instead: scenes that were built to break the method.
+    /// Solve the hard cases instead: scenes that were built to break the method, and some of `--metamorphic`.
     #[arg(long, conflicts_with = "largest")]
     hard: bool,
     /// Solve only those with the most contacts: minutes, and gigabytes of memory.
     #[arg(long, conflicts_with = "quick")]
     largest: bool,
+    /// Solve this many random scenes, and each again after every change that must not change its answer.
+    #[arg(long, value_name = "SCENES", conflicts_with_all = ["quick", "hard", "largest"])]
+    metamorphic: Option<usize>,
+    /// First of the random scenes.
+    #[arg(
+        long,
+        value_name = "NUMBER",
+        default_value_t = 1,
+        requires = "metamorphic"
+    )]
+    seed: u64,
     /// Write every number to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
@@ -32,6 +47,13 @@ pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     if arguments.hard || arguments.largest {
         return hard(arguments);
     }
+    if let Some(scenes) = arguments.metamorphic {
+        let battery = what_must_not_change(arguments, scenes)?;
+        if let Some(path) = &arguments.report {
+            write_output(path, &battery.to_json())?;
+        }
+        return Ok(ended(battery.passed));
+    }
     let verification = dpana::verify(arguments.quick)?;
     if let Some(path) = &arguments.report {
         write_output(path, &verification.to_json())?;
@@ -40,6 +62,7 @@ pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     Ok(ended(verification.passed))
 }
 
+/// The hard cases; with all of them, what must not change an answer.
 fn hard(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
     let reach = match (arguments.largest, arguments.quick) {
         (true, _) => Reach::Largest,
@@ -57,7 +80,26 @@ fn hard(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
         write_output(path, &solved.to_json())?;
     }
     say(&arguments.report, solved.summary().trim_end())?;
-    Ok(ended(solved.passed))
+    let held = match reach {
+        Reach::All => what_must_not_change(arguments, CHANGED)?.passed,
+        _ => true,
+    };
+    Ok(ended(solved.passed && held))
+}
+
+fn what_must_not_change(
+    arguments: &Verify,
+    scenes: usize,
+) -> Result<MetamorphicBattery, Box<dyn Error>> {
+    let mut told = Ok(());
+    let battery = metamorphic(arguments.seed, scenes, |wrong| {
+        if told.is_ok() {
+            told = say(&arguments.report, wrong);
+        }
+    })?;
+    told?;
+    say(&arguments.report, battery.summary().trim_end())?;
+    Ok(battery)
 }
 
 fn ended(passed: bool) -> ExitCode {

@@ -7,18 +7,21 @@ use faer::Mat;
 
 use super::CondensationWork;
 use super::PartMotion;
+use super::carried::Carried;
 use super::condensed_body::CondensedBody;
 use super::grounding::Grounding;
 use super::interface::Interface;
-use super::load_case::Action;
-use super::rigid_bodies::{floating, part_motions};
+use super::laws::{friction, under_laws};
+use super::load_case::Given;
+use super::rigid_bodies::{floating, part_motions, rigid_parts};
 use super::room::dense_bytes;
 use super::supported::{OfInterface, SupportedBody};
 use crate::body;
-use crate::body::Body;
-use crate::contact::{ContactPair, ContactSurface};
+use crate::body::{Body, Dependence};
+use crate::contact::{ContactPair, ContactSurface, RigidBody, RigidMotion};
 use crate::error::{Error, check_length};
 use crate::problem::{ContactProblem, Operator};
+use crate::stage::{self, Stage};
 
 /// Bodies, their contact surface, and the factors that join them; copies share the factors.
 #[derive(Clone, Debug)]
@@ -27,7 +30,31 @@ pub struct Condensed {
     pub(super) problem: ContactProblem,
     pub(super) bodies: Vec<CondensedBody>,
     pub(super) interfaces: Arc<[Interface]>,
+    pub(super) carried: Carried,
     pub(super) work: CondensationWork,
+}
+
+/// A body with its stiffness and load, before it is condensed.
+pub(super) fn supported<'a>(
+    body: &'a Body,
+    (prescribed, dependence): (Vec<Option<f64>>, Option<Dependence>),
+    interface: &Interface,
+) -> SupportedBody<'a> {
+    let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
+    let tied = dependence.as_ref();
+    SupportedBody {
+        name: &body.name,
+        nodes: &body.mesh.nodes,
+        dimension: body.mesh.dimension,
+        stiffness: body::stiffness(body),
+        load: body::load_vector(body),
+        grounding: Grounding::new(body, (&prescribed, tied), &nodes),
+        given: Given {
+            values: tied.map_or_else(Vec::new, |tied| tied.values(|_| 1.0)),
+            prescribed,
+        },
+        dependence,
+    }
 }
 
 impl Condensed {
@@ -39,6 +66,19 @@ impl Condensed {
     /// [`ContactSurface::new`] refuse, a stiffness that is not positive definite. A rigid
     /// motion that the supports leave free is none: see [`ContactProblem::floating`].
     pub fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
+        Self::with_rigid(bodies, pairs, &[])
+    }
+
+    /// The same with rigid bodies that carry the obstacles of some pairs.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`new`](Self::new), a motion or force that is not finite.
+    pub fn with_rigid(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
         let start = Instant::now();
         let mut prescribed = Vec::with_capacity(bodies.len());
         for body in bodies {
@@ -46,7 +86,7 @@ impl Condensed {
             prescribed.push(body::prescribed(body)?);
         }
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
-        Self::on_surface(bodies, pairs, surface, prescribed, start)
+        Self::on_surface(bodies, (pairs, rigid), surface, prescribed, start)
     }
 
     /// The same bodies on a contact surface that is found already, and maybe changed since.
@@ -64,33 +104,31 @@ impl Condensed {
             .iter()
             .map(body::prescribed)
             .collect::<Result<_, _>>()?;
-        Self::on_surface(bodies, pairs, surface, prescribed, start)
+        Self::on_surface(bodies, (pairs, &[]), surface, prescribed, start)
     }
 
     fn on_surface(
         bodies: &[Body],
-        pairs: &[ContactPair],
+        (pairs, rigid): (&[ContactPair], &[RigidBody]),
         surface: ContactSurface,
         prescribed: Vec<Vec<Option<f64>>>,
         start: Instant,
     ) -> Result<Self, Error> {
-        dense_bytes(&surface)?;
+        stage::found(surface.nodes.len(), dense_bytes(&surface)?);
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
         let (mut condensed, mut interfaces) = (Vec::new(), Vec::new());
         let mut of_interfaces = Vec::new();
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
-            let interface = Interface::new(&surface, index, dimension, &prescribed);
-            let nodes: Vec<usize> = interface.nodes.iter().map(|node| node.node).collect();
-            let supported = SupportedBody {
-                name: &body.name,
-                nodes: &body.mesh.nodes,
+            Stage::Assembly.begin();
+            let dependence = body::dependence(body)?;
+            let interface = Interface::new(
+                &surface,
+                index,
                 dimension,
-                stiffness: body::stiffness(body),
-                load: body::load_vector(body),
-                grounding: Grounding::new(body, &prescribed, &nodes),
-                prescribed,
-            };
+                (&prescribed, dependence.as_ref()),
+            );
+            let supported = supported(body, (prescribed, dependence), &interface);
             let (body, of_interface) = supported.condense(&interface, &mut work)?;
             condensed.push(body);
             interfaces.push(interface);
@@ -98,21 +136,36 @@ impl Condensed {
         }
         let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
+        Stage::Condensation.begin();
         let start = Instant::now();
         let mut problem = join(&surface, pairs, &interfaces, &condensed, of_interfaces)?;
         let groundings: Vec<_> = condensed.iter().map(CondensedBody::grounding).collect();
         let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
-        if let Some(floating) = floating(&surface, &groundings, &loads, dimension)? {
+        let carried = Carried::new(rigid, bodies, &surface);
+        if let Some(floating) = floating(&surface, &groundings, &loads, dimension, &carried)? {
             problem = problem.float(floating)?;
         }
         work.condensation_seconds += start.elapsed().as_secs_f64();
-        Ok(Self {
+        let mut condensed = Self {
             surface: Arc::new(surface),
             problem,
             bodies: condensed,
             interfaces: interfaces.into(),
+            carried,
             work,
-        })
+        };
+        if !rigid.is_empty() {
+            condensed.place_rigid()?;
+        }
+        Ok(condensed)
+    }
+
+    /// Moves rigid bodies by what is given of their motion.
+    fn place_rigid(&mut self) -> Result<(), Error> {
+        let none = vec![0.0; self.problem.unknowns()];
+        let free = self.problem.free_displacement().to_vec();
+        self.problem = self.problem.step(free, self.reference(&[], &none))?;
+        Ok(())
     }
 
     /// The contact surface.
@@ -133,11 +186,82 @@ impl Condensed {
         &self.bodies
     }
 
-    /// How the bodies' free parts move under an amplitude per free mode, in metre.
+    /// How the bodies' free parts move under an amplitude per free mode, in metre; rigid bodies come last,
+    /// numbered after the others.
     #[must_use]
     pub fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
         let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
-        part_motions(&groundings, motion)
+        let mut parts = part_motions(&groundings, motion);
+        parts.extend(rigid_parts(
+            &self.carried,
+            self.bodies.len(),
+            self.of_rigid(motion),
+        ));
+        parts
+    }
+
+    /// The amplitudes of rigid bodies, which come last.
+    fn of_rigid<'a>(&self, motion: &'a [f64]) -> &'a [f64] {
+        let elastic = motion.len().saturating_sub(self.carried.modes());
+        &motion[elastic..]
+    }
+
+    /// The rigid bodies.
+    #[must_use]
+    pub fn rigid_bodies(&self) -> &[RigidBody] {
+        self.carried.bodies()
+    }
+
+    /// Their motion under an amplitude per free mode of the problem, in metre.
+    #[must_use]
+    pub fn rigid_motions(&self, motion: &[f64]) -> Vec<RigidMotion> {
+        self.carried.motions(self.of_rigid(motion))
+    }
+
+    /// Given force, in newton, and moment, in newton metre, on the free components of each.
+    #[must_use]
+    pub fn rigid_forces(&self) -> Vec<[f64; 6]> {
+        let bodies = 0..self.carried.bodies().len();
+        bodies.map(|body| self.carried.forces(body)).collect()
+    }
+
+    /// Displacement of each contact's other side in global axes, in metre, where that is rigid: of plain
+    /// obstacles from their motion per contact pair, of rigid bodies under an amplitude per free mode.
+    #[must_use]
+    pub fn other_sides(&self, obstacles: &[[f64; 3]], motion: &[f64]) -> Vec<[f64; 3]> {
+        let mut moved = self.surface.obstacle_motions(obstacles);
+        self.carried.put(&self.rigid_motions(motion), &mut moved);
+        moved
+    }
+
+    /// The part of it that the contact problem finds: that of the free components of rigid bodies; empty where there
+    /// are none.
+    #[must_use]
+    pub fn found_sides(&self, motion: &[f64]) -> Vec<[f64; 3]> {
+        if self.carried.modes() == 0 {
+            return Vec::new();
+        }
+        let mut moved = vec![[0.0; 3]; self.surface.nodes.len()];
+        let motions = self.carried.freely(self.of_rigid(motion));
+        self.carried.put(&motions, &mut moved);
+        moved
+    }
+
+    /// Motion of the obstacle per contact pair, from that of plain ones, in metre, and an amplitude per free
+    /// mode; as many as there are entries in `obstacles`, and at least as pairs with rigid bodies need.
+    #[must_use]
+    pub fn pair_motions(&self, obstacles: &[[f64; 3]], motion: &[f64]) -> Vec<RigidMotion> {
+        let along = |translation: &[f64; 3]| RigidMotion {
+            translation: *translation,
+            ..RigidMotion::default()
+        };
+        let mut pairs: Vec<RigidMotion> = obstacles.iter().map(along).collect();
+        let carried = self.carried.bodies().iter().flat_map(|body| &body.pairs);
+        let needed = carried.map(|pair| pair + 1).max().unwrap_or(0);
+        pairs.resize(needed.max(pairs.len()), RigidMotion::default());
+        self.carried
+            .put_pairs(&self.rigid_motions(motion), &mut pairs);
+        pairs
     }
 
     /// What it took.
@@ -182,12 +306,8 @@ fn join(
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
     let mut free_displacement = vec![0.0; unknowns];
     for (interface, body) in interfaces.iter().zip(bodies) {
-        let Action {
-            prescribed,
-            free_displacement: of_body,
-            ..
-        } = &body.action;
-        interface.add_displacement(prescribed, of_body, &mut free_displacement);
+        let action = &body.action;
+        interface.add_displacement(action, &action.free_displacement, &mut free_displacement);
     }
     let mut operators = of_interfaces.into_iter().map(OfInterface::operator);
     let operator = match (interfaces, operators.next().transpose()?) {
@@ -201,23 +321,20 @@ fn join(
             Operator::from_bodies(compliance)?
         }
     };
-    let friction = surface
-        .nodes
-        .iter()
-        .map(|contact| pairs[contact.pair].friction)
-        .collect();
     let initial_gap = surface
         .nodes
         .iter()
         .map(|node| node.initial_gap + pairs[node.pair].gap)
         .collect();
-    ContactProblem::new(
+    let friction = friction(surface, pairs);
+    let problem = ContactProblem::new(
         &tangents,
         friction,
         initial_gap,
         free_displacement,
         operator,
-    )
+    );
+    under_laws(problem?, surface, pairs)
 }
 
 #[cfg(test)]
@@ -248,6 +365,7 @@ mod tests {
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(across), Some(0.0)],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         body.loads.push(Load::Pressure {
             facets: facets(&body.mesh, "top"),
@@ -265,8 +383,10 @@ mod tests {
                 normal,
             }),
             friction: 0.4,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         (body, pair)
     }
@@ -445,6 +565,7 @@ mod tests {
                 nodes,
                 displacement,
                 offsets: Vec::new(),
+                axes: Vec::new(),
             });
         };
         hold((8..81).step_by(9).collect(), [Some(0.0), None, None]);
@@ -464,8 +585,10 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.0,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         let condensed = Condensed::new(&[square], &[pair]).unwrap();
         assert_eq!(condensed.surface().left_out, [(0, 8)]);
@@ -551,6 +674,7 @@ mod tests {
             nodes: vec![0, 3],
             displacement: [Some(0.0); 3],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
@@ -561,8 +685,10 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.5,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(

@@ -13,9 +13,10 @@ use sprs::CsMat;
 
 use super::factor::Factor;
 use super::grounding::Grounding;
-use super::load_case::Action;
+use super::load_case::{Action, Given};
 use super::local_axes::Frames;
 use super::ordering::Ordering;
+use crate::body::{Dependence, Equation};
 
 /// A body, the factor that joins it to its interface, and what acts on it; copies share the factor.
 #[derive(Clone, Debug)]
@@ -28,6 +29,7 @@ pub struct CondensedBody {
 #[derive(Debug)]
 pub(super) struct FactoredBody {
     pub(super) stiffness: CsMat<f64>,
+    pub(super) dependence: Option<Dependence>,
     pub(super) frames: Frames,
     pub(super) ordering: Ordering,
     pub(super) factor: Factor,
@@ -36,20 +38,20 @@ pub(super) struct FactoredBody {
 
 impl CondensedBody {
     /// A body under a load, in newton, and given displacements, in metre.
-    pub(super) fn new(
-        factored: FactoredBody,
-        load: Vec<f64>,
-        prescribed: Vec<Option<f64>>,
-    ) -> Self {
-        let action = factored.answer(load, prescribed);
+    pub(super) fn new(factored: FactoredBody, load: Vec<f64>, given: Given) -> Self {
+        let action = factored.answer(load, given);
         let factored = Arc::new(factored);
         Self { factored, action }
     }
 
     /// What comes of another load, in newton, and of other given displacements at the same
     /// unknowns, in metre (C5): one pair of substitutions.
-    pub(super) fn answer(&self, load: Vec<f64>, prescribed: Vec<Option<f64>>) -> Action {
-        self.factored.answer(load, prescribed)
+    pub(super) fn answer(&self, load: Vec<f64>, given: Given) -> Action {
+        self.factored.answer(load, given)
+    }
+
+    pub(super) fn dependence(&self) -> Option<&Dependence> {
+        self.factored.dependence.as_ref()
     }
 
     pub(super) fn grounding(&self) -> &Grounding {
@@ -74,6 +76,14 @@ impl CondensedBody {
         &self.action.prescribed
     }
 
+    /// Equations between displacements (B16), and their right hand sides in metre; none where supports give
+    /// single displacements only.
+    #[must_use]
+    pub fn equations(&self) -> (&[Equation], &[f64]) {
+        let equations = self.dependence().map_or(&[][..], Dependence::equations);
+        (equations, &self.action.values)
+    }
+
     /// Displacement per degree of freedom under the load and a force per interface unknown (C6),
     /// moved by an amplitude per free mode (C3).
     pub(super) fn recover(&self, forces: &[f64], motion: &[f64]) -> Vec<f64> {
@@ -83,8 +93,17 @@ impl CondensedBody {
 
 impl FactoredBody {
     /// (C5).
-    fn answer(&self, load: Vec<f64>, prescribed: Vec<Option<f64>>) -> Action {
-        let mut half_solved = self.right_hand_side(&load, &prescribed);
+    fn answer(&self, load: Vec<f64>, given: Given) -> Action {
+        let Given { prescribed, values } = given;
+        let dependence = self.dependence.as_ref();
+        let constant = dependence.map_or_else(Vec::new, |tied| tied.constant(&values));
+        let mut half_solved = match constant.is_empty() {
+            true => {
+                let known = prescribed.iter().map(|value| value.unwrap_or(0.0));
+                self.right_hand_side(&load, known)
+            }
+            false => self.right_hand_side(&load, constant.iter().copied()),
+        };
         let free_displacement = if self.factor.is_bordered() {
             self.factor.border_displacement(&mut half_solved)
         } else {
@@ -95,18 +114,17 @@ impl FactoredBody {
         Action {
             load,
             prescribed,
+            values,
+            constant,
             half_solved,
             free_displacement,
         }
     }
 
-    /// `P Qᵀ (f − K u_p)`, in newton.
-    fn right_hand_side(&self, load: &[f64], prescribed: &[Option<f64>]) -> Vec<f64> {
+    /// `P Qᵀ Tᵀ (f − K u_p)`, in newton.
+    fn right_hand_side(&self, load: &[f64], known: impl Iterator<Item = f64>) -> Vec<f64> {
         let mut force = load.to_vec();
-        for (column, value) in prescribed.iter().enumerate() {
-            let Some(value) = value.filter(|&value| value != 0.0) else {
-                continue;
-            };
+        for (column, value) in known.enumerate().filter(|(_, value)| *value != 0.0) {
             // K is symmetric: its row is its column.
             let entries = self.stiffness.indptr().outer_inds_sz(column);
             let rows = &self.stiffness.indices()[entries.clone()];
@@ -114,8 +132,29 @@ impl FactoredBody {
                 force[row] -= entry * value;
             }
         }
+        self.in_order(force)
+    }
+
+    /// `P Qᵀ Tᵀ f`.
+    pub(super) fn in_order(&self, mut force: Vec<f64>) -> Vec<f64> {
+        if let Some(tied) = &self.dependence {
+            tied.gather(&mut force);
+        }
         self.frames.turn_to_local(&mut force);
         self.ordering.dof.iter().map(|&dof| force[dof]).collect()
+    }
+
+    /// `T Q Pᵀ x`, in metre.
+    pub(super) fn in_space(&self, solved: &[f64]) -> Vec<f64> {
+        let mut displacement = vec![0.0; self.stiffness.rows()];
+        for (&dof, &value) in self.ordering.dof.iter().zip(solved) {
+            displacement[dof] = value;
+        }
+        self.frames.turn_to_global(&mut displacement);
+        if let Some(tied) = &self.dependence {
+            tied.spread(&mut displacement);
+        }
+        displacement
     }
 
     /// x of (C6).
@@ -131,16 +170,15 @@ impl FactoredBody {
     }
 
     /// (C6), or (C17) with a border.
-    fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
+    pub(super) fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
         let x = match self.factor.is_bordered() {
             true => self.factor.displacement_under(&action.half_solved, forces),
             false => self.solve(&action.half_solved, forces),
         };
-        let mut displacement = vec![0.0; action.load.len()];
-        for (&dof, &value) in self.ordering.dof.iter().zip(&x) {
-            displacement[dof] = value;
+        let mut displacement = self.in_space(&x);
+        for (u, constant) in displacement.iter_mut().zip(&action.constant) {
+            *u += constant;
         }
-        self.frames.turn_to_global(&mut displacement);
         for (k, amplitude) in motion.iter().enumerate() {
             for (u, mode) in displacement
                 .iter_mut()

@@ -35,18 +35,19 @@ impl Condensed {
         let bodies = self.bodies.iter().zip(self.interfaces.iter());
         for ((body, interface), moved) in bodies.zip(displacements) {
             let at_contacts = body.factored.at_contacts(moved);
-            interface.add_displacement(&body.action.prescribed, &at_contacts, &mut ahead);
+            interface.add_displacement(&body.action, &at_contacts, &mut ahead);
         }
         let total = self.problem.total_displacement(displacement);
         ahead.iter_mut().zip(total).for_each(|(u, said)| *u -= said);
         Ok(ahead)
     }
 
-    /// Whether (C24) is for these bodies: held by their supports, and with every contact unknown in the factor.
+    /// Whether (C24) is for these bodies: held by their supports, as rigid ones are, and with every contact unknown in the factor.
     #[must_use]
     pub fn corrects(&self) -> bool {
         let mut bodies = self.bodies.iter().map(|body| &body.factored);
-        bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
+        self.carried.modes() == 0
+            && bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
     }
 
     /// The first of (C24): displacements under a reaction in newton, in place, in metre.
@@ -94,11 +95,7 @@ impl FactoredBody {
         let mut rest = self.residual(action, forces, displacement);
         self.factor.forward(&mut rest);
         self.factor.backward(&mut rest);
-        let mut change = vec![0.0; displacement.len()];
-        for (&dof, &value) in self.ordering.dof.iter().zip(&rest) {
-            change[dof] = value;
-        }
-        self.frames.turn_to_global(&mut change);
+        let change = self.in_space(&rest);
         let unknowns = displacement.iter_mut().zip(&action.prescribed).zip(change);
         for ((u, _), change) in unknowns.filter(|((_, prescribed), _)| prescribed.is_none()) {
             *u += change;
@@ -108,14 +105,13 @@ impl FactoredBody {
     /// r of (C24), in newton, in the factor's order.
     fn residual(&self, action: &Action, forces: &[f64], displacement: &[f64]) -> Vec<f64> {
         let rows = self.stiffness.outer_iterator().zip(&action.load);
-        let mut rest: Vec<f64> = rows
+        let rest: Vec<f64> = rows
             .map(|(row, &load)| {
                 let terms = row.iter().map(|(k, entry)| (-*entry, displacement[k]));
                 deep_sum(load, terms)
             })
             .collect();
-        self.frames.turn_to_local(&mut rest);
-        let mut rest: Vec<f64> = self.ordering.dof.iter().map(|&dof| rest[dof]).collect();
+        let mut rest = self.in_order(rest);
         let at_contacts = rest[self.ordering.ordinary()..].iter_mut();
         at_contacts
             .zip(forces)
@@ -155,6 +151,7 @@ mod tests {
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(0.01), Some(-0.02)],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         let pair = ContactPair {
             place: "contacts[0]".to_owned(),
@@ -165,8 +162,10 @@ mod tests {
                 normal: [0.28, 0.0, 0.96],
             }),
             friction: 0.3,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         Condensed::new(&[body], &[pair]).unwrap()
     }

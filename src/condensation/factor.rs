@@ -256,6 +256,27 @@ fn analyse(upper: &Columns) -> Result<SymbolicSupernodalCholesky<usize>, Breakdo
     .map_err(|_| Breakdown::TooLarge)
 }
 
+/// Entries of the factor of a supported body, and the multiplications that it takes, each with an addition.
+pub(super) fn count(
+    stiffness: &CsMat<f64>,
+    frames: &Frames,
+    ordering: &Ordering,
+    border: &[BorderRow],
+) -> Result<(usize, f64), Breakdown> {
+    let upper = |row: usize, column: usize| row <= column;
+    let mut columns = Columns::new(stiffness, frames, ordering, upper);
+    columns.surround(ordering, border, upper);
+    let symbolic = analyse(&columns)?;
+    let operations = (0..symbolic.n_supernodes()).map(|index| {
+        let supernode = symbolic.supernode(index);
+        let width = symbolic.supernode_end()[index] - supernode.start();
+        let rows = (0..width).map(|own| (width - own + supernode.pattern().len()) as f64);
+        // The rank-one update of a column touches half of a square.
+        rows.map(|rows| 0.5 * rows * rows).sum::<f64>()
+    });
+    Ok((symbolic.len_val(), operations.sum()))
+}
+
 /// Fills in the values of L; some column if its pivot is not positive.
 fn eliminate(
     symbolic: &SymbolicSupernodalCholesky<usize>,

@@ -14,7 +14,7 @@ use faer::Mat;
 use sprs::CsMat;
 
 use crate::body;
-use crate::body::{Body, RigidMode};
+use crate::body::{Body, Dependence, RigidMode};
 
 /// Free modes of one body over its degrees of freedom, and the springs that hold them.
 #[derive(Debug)]
@@ -30,7 +30,11 @@ pub(super) struct Grounding {
 impl Grounding {
     /// What `prescribed` leaves free of a body; nothing at all if it is held. Springs stand
     /// away from the nodes of the interface where they can.
-    pub(super) fn new(body: &Body, prescribed: &[Option<f64>], interface: &[usize]) -> Self {
+    pub(super) fn new(
+        body: &Body,
+        (prescribed, tied): (&[Option<f64>], Option<&Dependence>),
+        interface: &[usize],
+    ) -> Self {
         let free = body::free_modes(body, prescribed);
         let axes = body.mesh.dimension;
         let mut modes = Mat::zeros(prescribed.len(), free.modes.len());
@@ -46,7 +50,9 @@ impl Grounding {
                 }
             }
         }
-        let springs = body::fixing_dofs(body, prescribed, &free, interface);
+        let independent = |dof: usize| tied.is_none_or(|tied| tied.of(dof).is_none());
+        let free_dof = |dof: usize| prescribed[dof].is_none() && independent(dof);
+        let springs = body::fixing_dofs(body, free_dof, &free, interface);
         let size = |mode: &RigidMode| {
             let nodes = free.parts[mode.part]
                 .iter()

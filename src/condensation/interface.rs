@@ -8,14 +8,17 @@
 //! A contact's own node enters with weight one, or the nodes around it with those of (C16), a node
 //! of the opposite side with minus its mortar weight. A row of B_k is that weight times the contact's direction, in the
 //! axes of the node. Where the nodes have many more displacements than the contacts see of them, what
-//! these see are the interface unknowns, and B_k goes into the body (C17).
+//! these see are the interface unknowns, and B_k goes into the body (C17); so it does where these displacements
+//! depend on others, as `B_k T` (B17).
 
 use std::collections::BTreeMap;
 
 use faer::Mat;
 
 use super::columns::BorderRow;
+use super::load_case::Action;
 use super::local_axes::InterfaceNode;
+use crate::body::Dependence;
 use crate::contact::{ContactNode, ContactSurface};
 
 /// How many times as many unknowns the nodes have as the contacts that move with them, for a body to
@@ -47,7 +50,7 @@ impl Interface {
         surface: &ContactSurface,
         index: usize,
         dimension: usize,
-        prescribed: &[Option<f64>],
+        (prescribed, tied): (&[Option<f64>], Option<&Dependence>),
     ) -> Self {
         let (order, touches) = touches(surface, index);
         let held = |node: usize| -> [Option<f64>; 3] {
@@ -67,7 +70,7 @@ impl Interface {
         let size = offsets[surface.nodes.len()];
         let (mut rows, mut given) = (vec![Vec::new(); size], vec![Vec::new(); size]);
         let mut seen = vec![BorderRow::new(); size];
-        let mut unknowns = 0;
+        let (mut unknowns, mut depends) = (0, false);
         for interface in &nodes {
             let held = held(interface.node);
             for &(contact, weight) in &touches[&interface.node] {
@@ -76,12 +79,17 @@ impl Interface {
                     for (axis, held) in held.iter().enumerate() {
                         let coefficient = weight * direction[axis];
                         if coefficient != 0.0 && axis < dimension {
-                            let part = if held.is_some() {
-                                &mut given
-                            } else {
-                                &mut seen
-                            };
-                            part[at].push((interface.node * dimension + axis, coefficient));
+                            let dof = interface.node * dimension + axis;
+                            match (held, tied.and_then(|tied| tied.of(dof))) {
+                                (Some(_), _) => given[at].push((dof, coefficient)),
+                                (None, None) => seen[at].push((dof, coefficient)),
+                                (None, Some(of)) => {
+                                    depends = true;
+                                    given[at].push((dof, coefficient));
+                                    let terms = of.terms.iter();
+                                    seen[at].extend(terms.map(|&(q, a)| (q, a * coefficient)));
+                                }
+                            }
                         }
                     }
                     for (kept, axis) in interface.frame[..interface.kept].iter().enumerate() {
@@ -102,7 +110,7 @@ impl Interface {
             unknowns,
         };
         let bordering = seen.iter().filter(|row| !row.is_empty()).count();
-        if MANY * bordering <= unknowns {
+        if MANY * bordering <= unknowns || depends {
             interface.look_over(seen);
         }
         interface
@@ -134,11 +142,11 @@ impl Interface {
         self.rows.len() == self.unknowns && rows.all(|(i, row)| *row == [(i, 1.0)])
     }
 
-    /// Adds `B_k v_k + given` (C11) for displacements of the body's interface unknowns and given ones per degree
-    /// of freedom, in metre.
+    /// Adds `B_k v_k + given` (C11) for displacements of the body's interface unknowns and what is given, in
+    /// metre.
     pub(super) fn add_displacement(
         &self,
-        prescribed: &[Option<f64>],
+        action: &Action,
         of_body: &[f64],
         displacement: &mut [f64],
     ) {
@@ -147,9 +155,7 @@ impl Interface {
             .zip(self.rows.iter().zip(&self.given))
         {
             let given = given.iter();
-            *u += given
-                .map(|&(dof, b)| b * prescribed[dof].unwrap_or(0.0))
-                .sum::<f64>()
+            *u += given.map(|&(dof, b)| b * action.given(dof)).sum::<f64>()
                 + row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
         }
     }
@@ -233,7 +239,7 @@ fn interface_node(
         let contact = &surface.nodes[contact];
         let across_supports = unknown_rows(contact)
             .all(|row| row.iter().zip(held).all(|(d, u)| u.is_none() || *d == 0.0));
-        if contact.opposite.is_none() || (across_supports && contact.tangents == 0) {
+        if across_supports && (contact.opposite.is_none() || contact.tangents == 0) {
             return InterfaceNode {
                 node,
                 frame: contact.frame,

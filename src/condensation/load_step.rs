@@ -7,15 +7,16 @@
 //! ```
 
 use super::rigid_bodies::mode_loads;
-use super::{Condensed, CondensedBody, Superposition};
+use super::{Condensed, CondensedBody, Driven, Superposition};
 use crate::error::{Error, check_length};
 
 impl Condensed {
-    /// Moves on to other factors of loads and supports, and obstacles moved from where they were
-    /// before loading: nothing is substituted (C15).
+    /// Moves on to other factors of loads, supports and rigid bodies, and obstacles moved from where they
+    /// were before loading: nothing is substituted (C15).
     ///
     /// - `under`, `factors`: what acts on these bodies, a factor per driven load or support;
-    /// - `obstacles`: motion `d` of the obstacle per contact pair, in metre in global axes;
+    /// - `obstacles`: motion `d` of the obstacle per contact pair, in metre in global axes; not read of
+    ///   pairs that a rigid body carries;
     /// - `slip`: of the last state, in metre per unknown of the contact problem
     ///   ([`slip`](Self::slip)); zero at the start. Entries along normals are not read.
     ///
@@ -37,15 +38,25 @@ impl Condensed {
         }
         let actions = under.at(factors)?;
         check_length("bodies", self.bodies.len(), actions.len())?;
+        for (body, action) in self.bodies.iter().zip(&actions) {
+            body.dependence()
+                .map_or(Ok(()), |tied| tied.check(&action.values))?;
+        }
         let mut free = vec![0.0; self.problem.unknowns()];
         for (action, interface) in actions.iter().zip(self.interfaces.iter()) {
-            interface.add_displacement(&action.prescribed, &action.free_displacement, &mut free);
+            interface.add_displacement(action, &action.free_displacement, &mut free);
+        }
+        for (driven, &factor) in under.driven().iter().zip(factors) {
+            if let Driven::Rigid { body, component } = *driven {
+                self.carried.scale(body, component, factor)?;
+            }
         }
         let mut problem = self.problem.step(free, self.reference(obstacles, slip))?;
         if let Some(floating) = problem.floating() {
             let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
             let loads: Vec<_> = actions.iter().map(|action| &action.load).collect();
-            let load = mode_loads(&groundings, &loads);
+            let mut load = mode_loads(&groundings, &loads);
+            load.extend(self.carried.load());
             let moved = floating.under(load)?;
             problem = problem.float(moved)?;
         }
@@ -99,9 +110,11 @@ impl Condensed {
     }
 
     /// (C14).
-    fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
+    pub(super) fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
         let mut reference = slip.to_vec();
-        let moved = self.surface.obstacle_motions(obstacles);
+        let given = self.carried.motions(&[]);
+        let mut moved = self.surface.obstacle_motions(obstacles);
+        self.carried.put(&given, &mut moved);
         let contacts = self.surface.nodes.iter().zip(moved);
         for ((contact, moved), &first) in contacts.zip(self.problem.normals()) {
             reference[first] = 0.0;
@@ -122,7 +135,6 @@ mod tests {
     use super::*;
     use crate::body::tests::samples::{distorted, facets};
     use crate::body::{Body, CellKind, Load, Support};
-    use crate::condensation::Driven;
     use crate::contact::{ContactPair, Obstacle, Opposite};
     use crate::problem::ContactProblem;
 
@@ -135,6 +147,7 @@ mod tests {
             nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
             displacement: [Some(0.0), Some(moved), Some(0.0)],
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
         let facets_of = |side| facets(&body.mesh, side);
         let (top, bottom) = (facets_of("top"), facets_of("bottom"));
@@ -151,8 +164,10 @@ mod tests {
                 normal: [0.0, 0.0, 1.0],
             }),
             friction: 0.0,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         (body, pair)
     }

@@ -16,23 +16,30 @@
 //! | where contacts see less than their nodes: a border (C17) | `border` |
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `load_case`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
+//! | bodies without compliance (C31) | `carried` |
 //! | recovered body (C6), set right where the factor has few digits (C24) | `condensed_body`, `correction` |
-//! | room for what is dense | `room` |
+//! | room for what is dense, and what all will take | `room`, `estimate` |
+//! | laws of the contacts, per area and place (C25) | `laws` |
 //! | the problem of a load step (C13) | `load_step` |
+//! | what loads, supports, obstacles and moduli change per unit (C26) | `rates` |
 
 mod border;
+mod carried;
 mod columns;
 mod condensed;
 mod condensed_body;
 mod correction;
 mod elimination_tree;
+mod estimate;
 mod factor;
 mod grounding;
 mod interface;
+mod laws;
 mod load_case;
 mod load_step;
 mod local_axes;
 mod ordering;
+mod rates;
 mod rigid_bodies;
 mod room;
 mod substitution;
@@ -44,6 +51,10 @@ mod work;
 
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
+pub use estimate::Estimate;
+pub(crate) use estimate::estimate;
+pub(crate) use laws::friction;
+pub(crate) use rates::BodyRate;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
 pub(crate) use room::dense_bytes;
 pub(crate) use superposition::{Driven, Superposition};

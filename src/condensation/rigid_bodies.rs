@@ -4,10 +4,11 @@ use std::borrow::Borrow;
 
 use faer::Mat;
 
+use super::carried::Carried;
 use super::grounding::Grounding;
 use crate::body;
 use crate::body::Body;
-use crate::contact::{ContactNode, ContactPair, ContactSurface};
+use crate::contact::{ContactNode, ContactPair, ContactSurface, RigidBody, RigidMotion};
 use crate::error::Error;
 use crate::problem::Floating;
 
@@ -21,6 +22,7 @@ const ROUND_OFF: f64 = 1e-13;
 pub(crate) struct RigidBodies {
     surface: ContactSurface,
     groundings: Vec<Grounding>,
+    carried: Carried,
     dimension: usize,
 }
 
@@ -46,7 +48,11 @@ impl RigidBodies {
     ///
     /// What [`check`](body::check()), [`prescribed`](body::prescribed()) and
     /// [`ContactSurface::new`] refuse.
-    pub(crate) fn new(bodies: &[Body], pairs: &[ContactPair]) -> Result<Self, Error> {
+    pub(crate) fn new(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
         let mut prescribed = Vec::with_capacity(bodies.len());
         for body in bodies {
             body::check(body)?;
@@ -55,10 +61,17 @@ impl RigidBodies {
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
         let held = bodies.iter().zip(&prescribed);
         Ok(Self {
+            carried: Carried::new(rigid, bodies, &surface),
             surface,
             groundings: held
-                .map(|(body, held)| Grounding::new(body, held, &[]))
-                .collect(),
+                .map(|(body, held)| {
+                    Ok(Grounding::new(
+                        body,
+                        (held, body::dependence(body)?.as_ref()),
+                        &[],
+                    ))
+                })
+                .collect::<Result<_, Error>>()?,
             dimension: bodies.first().map_or(3, |body| body.mesh.dimension),
         })
     }
@@ -78,19 +91,46 @@ impl RigidBodies {
     /// R of (C3), per contact unknown and free mode.
     #[must_use]
     pub(crate) fn modes(&self) -> Mat<f64> {
-        contact_modes(&self.surface, &self.groundings, self.dimension)
+        contact_modes(
+            &self.surface,
+            &self.groundings,
+            self.dimension,
+            &self.carried,
+        )
     }
 
-    /// Work on every free mode of nodal forces per body (`node · dimension + axis`), in newton.
+    /// Work on every free mode of nodal forces per body (`node · dimension + axis`), in newton; none on those of
+    /// rigid bodies.
     #[must_use]
     pub(crate) fn load(&self, forces: &[Vec<f64>]) -> Vec<f64> {
-        mode_loads(&self.groundings, forces)
+        let mut load = mode_loads(&self.groundings, forces);
+        load.resize(load.len() + self.carried.modes(), 0.0);
+        load
+    }
+
+    /// The same of the force on one component of a rigid body.
+    #[must_use]
+    pub(crate) fn rigid_load(&self, body: usize, component: usize) -> Vec<f64> {
+        let mut load = vec![0.0; self.elastic_modes()];
+        load.extend(self.carried.load_of(body, component));
+        load
+    }
+
+    fn elastic_modes(&self) -> usize {
+        let modes = self
+            .groundings
+            .iter()
+            .map(|grounding| grounding.modes.ncols());
+        modes.sum()
     }
 
     /// How the free parts move under an amplitude per free mode, in metre.
     #[must_use]
     pub(crate) fn motions(&self, motion: &[f64]) -> Vec<PartMotion> {
-        part_motions(&self.groundings, motion)
+        let mut parts = part_motions(&self.groundings, motion);
+        let rigid = &motion[self.elastic_modes()..];
+        parts.extend(rigid_parts(&self.carried, self.groundings.len(), rigid));
+        parts
     }
 }
 
@@ -100,12 +140,14 @@ pub(super) fn floating(
     groundings: &[&Grounding],
     forces: &[&[f64]],
     dimension: usize,
+    carried: &Carried,
 ) -> Result<Option<Floating>, Error> {
-    let load = mode_loads(groundings, forces);
+    let mut load = mode_loads(groundings, forces);
+    load.extend(carried.load());
     if load.is_empty() {
         return Ok(None);
     }
-    let modes = contact_modes(surface, groundings, dimension);
+    let modes = contact_modes(surface, groundings, dimension, carried);
     Floating::of_bodies(modes, load).map(Some)
 }
 
@@ -113,6 +155,7 @@ fn contact_modes(
     surface: &ContactSurface,
     groundings: &[impl Borrow<Grounding>],
     dimension: usize,
+    carried: &Carried,
 ) -> Mat<f64> {
     let unknowns = surface.nodes.iter().map(|node| 1 + node.tangents).sum();
     let of_bodies = groundings.iter().map(Borrow::borrow).enumerate();
@@ -122,7 +165,12 @@ fn contact_modes(
             modes.map(move |k| (index, grounding.modes.col_as_slice(k)))
         })
         .collect();
-    let mut modes = Mat::zeros(unknowns, columns.len());
+    let elastic = columns.len();
+    let mut modes = Mat::zeros(unknowns, elastic + carried.modes());
+    carried.fill(
+        surface,
+        modes.as_mut().subcols_mut(elastic, carried.modes()),
+    );
     for (k, (body, mode)) in columns.into_iter().enumerate() {
         let mut entries = modes.col_as_slice_mut(k).iter_mut();
         for contact in &surface.nodes {
@@ -180,6 +228,23 @@ pub(super) fn mode_loads(
         .collect()
 }
 
+/// How rigid bodies move under an amplitude per mode, numbered after `elastic` others.
+pub(super) fn rigid_parts(
+    carried: &Carried,
+    elastic: usize,
+    amplitudes: &[f64],
+) -> Vec<PartMotion> {
+    let motions = carried.freely(amplitudes).into_iter().zip(carried.sizes());
+    let of_body = |(body, (motion, &size)): (usize, (RigidMotion, &f64))| PartMotion {
+        body: elastic + body,
+        centre: motion.about,
+        size,
+        translation: motion.translation,
+        rotation: motion.rotation,
+    };
+    motions.enumerate().map(of_body).collect()
+}
+
 pub(super) fn part_motions(
     groundings: &[impl Borrow<Grounding>],
     motion: &[f64],
@@ -232,10 +297,12 @@ mod tests {
                 normal: [0.0, 1.0, 0.0],
             }),
             friction: 0.5,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
-        let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair]).unwrap();
+        let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair], &[]).unwrap();
         (body, rigid)
     }
 

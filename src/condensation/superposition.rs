@@ -6,9 +6,9 @@
 //! ```
 
 use super::Condensed;
-use super::load_case::Action;
+use super::load_case::{Action, Given};
 use crate::body;
-use crate::body::{Body, Load, Support};
+use crate::body::{Body, Load, Source, Support};
 use crate::error::{Error, check_finite, check_length};
 
 /// A load or a support, by the number of its body and its own there.
@@ -28,6 +28,20 @@ pub enum Driven {
         /// Its number among the body's supports.
         index: usize,
     },
+    /// What is given of a component of a rigid body: its motion, or the force on it.
+    Rigid {
+        /// Number of the rigid body.
+        body: usize,
+        /// Number of the component.
+        component: usize,
+    },
+    /// The given motion of a rigid group.
+    Motion {
+        /// Its body.
+        body: usize,
+        /// Its number among the body's ties.
+        index: usize,
+    },
 }
 
 /// What acts on bodies as a function of factors (C15).
@@ -36,8 +50,8 @@ pub struct Superposition {
     driven: Vec<Driven>,
     /// f₀, u₀ and their answers, per body.
     rest: Vec<Action>,
-    /// f_k or u_k and its answer, per driven load or support.
-    parts: Vec<Action>,
+    /// f_k or u_k and its answer, per driven load or support; none of a rigid body.
+    parts: Vec<Option<Action>>,
     supports: Vec<Vec<Support>>,
     dimension: usize,
 }
@@ -58,43 +72,69 @@ impl Condensed {
         driven: &[Driven],
     ) -> Result<Superposition, Error> {
         check_length("bodies", self.bodies.len(), bodies.len())?;
-        driven.iter().try_for_each(|driven| driven.check(bodies))?;
+        let rigid = self.carried.bodies().len();
+        (driven.iter()).try_for_each(|driven| driven.check(bodies, rigid))?;
         let mut rest = Vec::with_capacity(bodies.len());
         for (at, body) in bodies.iter().enumerate() {
-            rest.push(match driven.iter().any(|driven| driven.body() == at) {
-                false => self.bodies[at].action.clone(),
-                true => self.answer(at, body, |acts| !driven.contains(&acts)),
-            });
+            rest.push(
+                match driven.iter().any(|driven| driven.body() == Some(at)) {
+                    false => self.bodies[at].action.clone(),
+                    true => self.answer(at, body, |acts| !driven.contains(&acts)),
+                },
+            );
         }
         let mut parts = Vec::with_capacity(driven.len());
         for &part in driven {
-            let at = part.body();
-            parts.push(self.answer(at, &bodies[at], |acts| acts == part));
+            let answer = |at: usize| self.answer(at, &bodies[at], |acts| acts == part);
+            parts.push(part.body().map(answer));
         }
         Ok(Superposition {
             driven: driven.to_vec(),
             rest,
             parts,
-            supports: bodies.iter().map(|body| body.supports.clone()).collect(),
+            supports: bodies.iter().map(stated).collect(),
             dimension: bodies.first().map_or(3, |body| body.mesh.dimension),
         })
     }
 
     /// (C5) under those loads and given displacements of a body that act.
     fn answer(&mut self, at: usize, body: &Body, acts: impl Fn(Driven) -> bool) -> Action {
+        self.work.substitutions += 1;
+        self.answer_of(at, body, acts)
+    }
+
+    /// The same, not counted.
+    pub(super) fn answer_of(
+        &self,
+        at: usize,
+        body: &Body,
+        acts: impl Fn(Driven) -> bool,
+    ) -> Action {
         let loads = body.loads.iter().enumerate();
         let loads = loads.filter(|&(index, _)| acts(Driven::Load { body: at, index }));
         let loads: Vec<Load> = loads.map(|(_, load)| load.clone()).collect();
         let moves = |index| acts(Driven::Support { body: at, index });
-        self.work.substitutions += 1;
-        self.bodies[at].answer(
-            body::nodal_forces(body, &loads),
-            displacements_of(body, moves),
-        )
+        let given = match self.bodies[at].dependence() {
+            Some(tied) => Given::of(tied, |by| match by {
+                Source::Axis => false,
+                Source::Support(index) => moves(index),
+                Source::Tie(index) => acts(Driven::Motion { body: at, index }),
+            }),
+            None => Given {
+                prescribed: displacements_of(body, moves),
+                ..Given::default()
+            },
+        };
+        self.bodies[at].answer(body::nodal_forces(body, &loads), given)
     }
 }
 
 impl Superposition {
+    /// What has a factor.
+    pub(super) fn driven(&self) -> &[Driven] {
+        &self.driven
+    }
+
     /// What acts on every body under a factor per driven load or support.
     ///
     /// # Errors
@@ -107,9 +147,13 @@ impl Superposition {
         let mut supports = self.supports.clone();
         let mut actions = self.rest.clone();
         for ((driven, part), &factor) in self.driven.iter().zip(&self.parts).zip(factors) {
-            actions[driven.body()].add(factor, part);
-            if let Driven::Support { body, index } = *driven {
-                supports[body][index] = supports[body][index].scaled(factor);
+            if let (Some(body), Some(part)) = (driven.body(), part) {
+                actions[body].add(factor, part);
+            }
+            if let Driven::Support { body, index } = *driven
+                && let Some(support) = supports[body].get_mut(index)
+            {
+                *support = support.scaled(factor);
             }
         }
         for (action, supports) in actions.iter().zip(&supports) {
@@ -121,13 +165,30 @@ impl Superposition {
     }
 }
 
+/// The supports that can contradict each other unknown by unknown.
+fn stated(body: &Body) -> Vec<Support> {
+    match body.is_tied() {
+        true => Vec::new(),
+        false => body.supports.clone(),
+    }
+}
+
 impl Driven {
-    fn check(self, bodies: &[Body]) -> Result<(), Error> {
-        let body = bodies.get(self.body());
-        let (what, index, count) = match (self, body) {
-            (_, None) => ("body", self.body(), bodies.len()),
-            (Self::Load { index, .. }, Some(body)) => ("load", index, body.loads.len()),
-            (Self::Support { index, .. }, Some(body)) => ("support", index, body.supports.len()),
+    pub(super) fn check(self, bodies: &[Body], rigid: usize) -> Result<(), Error> {
+        let (what, index, count) = match self {
+            Self::Rigid { body, .. } => ("rigid body", body, rigid),
+            Self::Load { body, index } => match bodies.get(body) {
+                None => ("body", body, bodies.len()),
+                Some(of_body) => ("load", index, of_body.loads.len()),
+            },
+            Self::Support { body, index } => match bodies.get(body) {
+                None => ("body", body, bodies.len()),
+                Some(of_body) => ("support", index, of_body.supports.len()),
+            },
+            Self::Motion { body, index } => match bodies.get(body) {
+                None => ("body", body, bodies.len()),
+                Some(of_body) => ("tie", index, of_body.ties.len()),
+            },
         };
         match index < count {
             true => Ok(()),
@@ -140,9 +201,13 @@ impl Driven {
         }
     }
 
-    fn body(self) -> usize {
+    /// The elastic body that it acts on.
+    pub(super) fn body(self) -> Option<usize> {
         match self {
-            Self::Load { body, .. } | Self::Support { body, .. } => body,
+            Self::Load { body, .. } | Self::Support { body, .. } | Self::Motion { body, .. } => {
+                Some(body)
+            }
+            Self::Rigid { .. } => None,
         }
     }
 }

@@ -7,13 +7,16 @@ use sprs::CsMat;
 
 use super::CondensationWork;
 use super::condensed_body::{CondensedBody, FactoredBody};
-use super::factor::{Breakdown, Factor};
+use super::factor::{Breakdown, Factor, count};
 use super::grounding::Grounding;
 use super::interface::Interface;
+use super::load_case::Given;
 use super::local_axes::{Frames, InterfaceNode};
 use super::ordering::{Ordering, Role};
+use crate::body::Dependence;
 use crate::error::Error;
 use crate::problem::Operator;
+use crate::stage::Stage;
 
 /// The assembled body, before it is condensed.
 pub(super) struct SupportedBody<'a> {
@@ -22,8 +25,20 @@ pub(super) struct SupportedBody<'a> {
     pub(super) dimension: usize,
     pub(super) stiffness: CsMat<f64>,
     pub(super) load: Vec<f64>,
-    pub(super) prescribed: Vec<Option<f64>>,
+    pub(super) given: Given,
+    pub(super) dependence: Option<Dependence>,
     pub(super) grounding: Grounding,
+}
+
+/// What the factor of a body will take.
+pub(super) struct Counted {
+    pub(super) unknowns: usize,
+    /// Those that the body is condensed onto.
+    pub(super) condensed: usize,
+    /// Stored entries.
+    pub(super) entries: usize,
+    /// Multiplications, each with an addition.
+    pub(super) operations: f64,
 }
 
 /// What a body is for its interface, as the factor gives it.
@@ -51,16 +66,21 @@ impl SupportedBody<'_> {
         interface: &Interface,
         work: &mut CondensationWork,
     ) -> Result<(CondensedBody, OfInterface), Error> {
+        Stage::Ordering.begin();
         let start = Instant::now();
         let nodes = interface.condensed_nodes();
         let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
         let (roles, contact) = self.roles(nodes);
-        let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
+        let tied = self.dependence.as_ref();
+        let reduced = tied.map(|tied| tied.reduce(&self.stiffness));
+        let stiffness = reduced.as_ref().unwrap_or(&self.stiffness);
+        let ordering = Ordering::new(stiffness, self.dimension, &roles, &contact)
             .ok_or_else(|| self.too_large("ordering"))?;
         work.ordering_seconds += start.elapsed().as_secs_f64();
 
+        Stage::Factorisation.begin();
         let start = Instant::now();
-        let grounded = self.grounding.ground(&self.stiffness);
+        let grounded = self.grounding.ground(stiffness);
         let factor = Factor::new(&grounded, &frames, &ordering, &interface.border)
             .map_err(|breakdown| self.explain(breakdown))?;
         work.factorisation_seconds += start.elapsed().as_secs_f64();
@@ -70,6 +90,7 @@ impl SupportedBody<'_> {
         work.condensed_unknowns += factor.contact_unknowns();
         work.factor_entries += factor.entries();
 
+        Stage::Condensation.begin();
         let start = Instant::now();
         let of_interface = match factor.is_bordered() {
             true => OfInterface::Compliance(factor.border_compliance()),
@@ -77,29 +98,52 @@ impl SupportedBody<'_> {
         };
         let factored = FactoredBody {
             stiffness: self.stiffness,
+            dependence: self.dependence,
             frames,
             ordering,
             factor,
             grounding: self.grounding,
         };
-        let body = CondensedBody::new(factored, self.load, self.prescribed);
+        let body = CondensedBody::new(factored, self.load, self.given);
         work.substitutions += 1;
         work.condensation_seconds += start.elapsed().as_secs_f64();
         Ok((body, of_interface))
     }
 
+    /// Orders, and counts what the factor will take.
+    pub(super) fn count(self, interface: &Interface) -> Result<Counted, Error> {
+        let nodes = interface.condensed_nodes();
+        let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
+        let (roles, contact) = self.roles(nodes);
+        let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
+            .ok_or_else(|| self.too_large("ordering"))?;
+        let grounded = self.grounding.ground(&self.stiffness);
+        let (entries, operations) = count(&grounded, &frames, &ordering, &interface.border)
+            .map_err(|breakdown| self.explain(breakdown))?;
+        Ok(Counted {
+            unknowns: ordering.unknowns(),
+            condensed: ordering.contact_unknowns + interface.border.len(),
+            entries,
+            operations,
+        })
+    }
+
     /// The role of each degree of freedom in the frames, and the interface unknowns in order.
     fn roles(&self, interface: &[InterfaceNode]) -> (Vec<Role>, Vec<usize>) {
         let role = |held: bool| if held { Role::Held } else { Role::Ordinary };
-        let mut roles: Vec<Role> = self
-            .prescribed
-            .iter()
-            .map(|value| role(value.is_some()))
+        let prescribed = &self.given.prescribed;
+        let depends = |dof| {
+            self.dependence
+                .as_ref()
+                .is_some_and(|tied| tied.of(dof).is_some())
+        };
+        let mut roles: Vec<Role> = (0..prescribed.len())
+            .map(|dof| role(prescribed[dof].is_some() || depends(dof)))
             .collect();
         let mut contact = Vec::new();
         for node in interface {
             let first = node.node * self.dimension;
-            let supported = &self.prescribed[first..first + self.dimension];
+            let supported = &prescribed[first..first + self.dimension];
             for (row, direction) in node.frame[..self.dimension].iter().enumerate() {
                 let mut along = direction.iter().zip(supported);
                 roles[first + row] = if row < node.kept {

@@ -33,22 +33,30 @@ pub(crate) struct ConeSolution {
 }
 
 impl ConeProgram {
-    /// `x ≤ 0`, one number per row of `quadratic` (dense symmetric; the upper triangle is read).
-    pub(crate) fn nonpositive(quadratic: MatRef<'_, f64>) -> Option<Self> {
+    /// `x ≤ 0` where `bounded`, one number per row of `quadratic` (dense symmetric; the upper triangle is read).
+    pub(crate) fn nonpositive(quadratic: MatRef<'_, f64>, bounded: &[bool]) -> Option<Self> {
         let size = quadratic.nrows();
         let scale = (0..size).map(|i| inverse_root(quadratic[(i, i)])).collect();
-        let rows = CscMatrix::identity(size);
-        Self::set_up(
-            quadratic,
-            scale,
-            rows,
-            &[NonnegativeConeT(size)],
-            Vec::new(),
-        )
+        let mut columns = Columns::new();
+        let mut height = 0;
+        for &bounded in bounded {
+            if bounded {
+                columns.push(height, 1.0);
+                height += 1;
+            }
+            columns.end_column();
+        }
+        let cones = [NonnegativeConeT(height)];
+        Self::set_up(quadratic, scale, columns.matrix(height), &cones, Vec::new())
     }
 
-    /// Discs of the given dimensions (1 or 2), variables one disc after the other.
-    pub(crate) fn discs(quadratic: MatRef<'_, f64>, dimensions: &[usize]) -> Option<Self> {
+    /// Discs of the given dimensions (1 or 2), variables one disc after the other; those that are not `bounded`
+    /// have no edge.
+    pub(crate) fn discs(
+        quadratic: MatRef<'_, f64>,
+        dimensions: &[usize],
+        bounded: &[bool],
+    ) -> Option<Self> {
         let mut starts = vec![0];
         let mut scale = Vec::new();
         for &dimension in dimensions {
@@ -60,8 +68,13 @@ impl ConeProgram {
             ));
             starts.push(start + dimension);
         }
-        let cones: Vec<_> = dimensions.iter().map(|d| SecondOrderConeT(d + 1)).collect();
-        Self::set_up(quadratic, scale, disc_rows(dimensions), &cones, starts)
+        let edges = dimensions
+            .iter()
+            .zip(bounded)
+            .filter(|(_, bounded)| **bounded);
+        let cones: Vec<_> = edges.map(|(d, _)| SecondOrderConeT(d + 1)).collect();
+        let rows = disc_rows(dimensions, bounded);
+        Self::set_up(quadratic, scale, rows, &cones, starts)
     }
 
     fn set_up(
@@ -118,10 +131,11 @@ impl ConeProgram {
         })
     }
 
-    /// Right-hand side: the bound first, then zeros for the disc's variables.
+    /// Right-hand side: the bound first, then zeros for the disc's variables; nothing for a disc without edge.
     fn disc_bounds(&self, bounds: &[f64], sigma: f64) -> Vec<f64> {
         let mut b = Vec::with_capacity(bounds.len() + self.scale.len());
-        for (disc, bound) in self.discs.windows(2).zip(bounds) {
+        let discs = self.discs.windows(2).zip(bounds);
+        for (disc, bound) in discs.filter(|(_, bound)| bound.is_finite()) {
             b.push(bound / (self.scale[disc[0]] * sigma));
             b.resize(b.len() + disc[1] - disc[0], 0.0);
         }
@@ -166,6 +180,16 @@ impl Columns {
     pub(crate) fn end_column(&mut self) {
         self.ends.push(self.values.len());
     }
+
+    fn matrix(self, height: usize) -> CscMatrix<f64> {
+        CscMatrix::new(
+            height,
+            self.ends.len() - 1,
+            self.ends,
+            self.rows,
+            self.values,
+        )
+    }
 }
 
 /// `min ½ x·P x + q·x  s.t.  A x + s = b` over whole cones, set up for many `q` and `b`.
@@ -199,8 +223,7 @@ impl ConicProgram {
             kinds.push(NonnegativeConeT(cones.nonnegative));
         }
         kinds.extend(cones.second_order.iter().map(|&d| SecondOrderConeT(d)));
-        let Columns { ends, rows, values } = columns;
-        let matrix = CscMatrix::new(height, size, ends, rows, values);
+        let matrix = columns.matrix(height);
         let (q, b) = (vec![0.0; size], vec![0.0; height]);
         let settings = settings(INITIAL_TOLERANCE)?;
         let solver = DefaultSolver::new(&hessian, &q, &matrix, &b, &kinds, settings).ok()?;
@@ -277,14 +300,18 @@ fn scaled_upper_triangle(quadratic: MatRef<'_, f64>, scale: &[f64]) -> CscMatrix
     CscMatrix::new(size, size, columns, rows, values)
 }
 
-/// `A` of `A x + s = b` with `s = (b, x)` per disc: −1 on the rows of x.
-fn disc_rows(dimensions: &[usize]) -> CscMatrix<f64> {
-    let mut rows = Vec::new();
+/// `A` of `A x + s = b` with `s = (b, x)` per bounded disc: −1 on the rows of x.
+fn disc_rows(dimensions: &[usize], bounded: &[bool]) -> CscMatrix<f64> {
+    let mut columns = Columns::new();
     let mut next = 0;
-    for &dimension in dimensions {
-        rows.extend(next + 1..=next + dimension);
-        next += dimension + 1;
+    for (&dimension, &bounded) in dimensions.iter().zip(bounded) {
+        for k in 1..=dimension {
+            if bounded {
+                columns.push(next + k, -1.0);
+            }
+            columns.end_column();
+        }
+        next += if bounded { dimension + 1 } else { 0 };
     }
-    let size = rows.len();
-    CscMatrix::new(next, size, (0..=size).collect(), rows, vec![-1.0; size])
+    columns.matrix(next)
 }

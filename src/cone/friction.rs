@@ -1,4 +1,6 @@
 //! The friction half-step (H2): friction with normal reactions held.
+//!
+//! Other laws of contact (problem::L5) have other radii; a contact that sticks has none, and no cone.
 
 use super::reduced::{Half, HalfStepWork, Role, WorkingSet};
 use crate::problem::ContactProblem;
@@ -95,18 +97,21 @@ impl<'a> FrictionHalfStep<'a> {
         true
     }
 
-    /// `−μ t_N` per contact, in newton.
+    /// `−μ t_N` per contact, or that of its law, in newton.
     fn friction_bounds(&self, reaction: &[f64]) -> Vec<f64> {
-        let normals = self.problem.normals().iter().zip(self.problem.friction());
-        normals.map(|(&n, mu)| -mu * reaction[n].min(0.0)).collect()
+        let normals = self.problem.normals().iter().enumerate();
+        normals
+            .map(|(contact, &n)| self.problem.friction_bound(contact, reaction[n]))
+            .collect()
     }
 
     fn drop_points(&self, bounds: &[f64], roles: &mut [Role]) {
-        let largest = bounds
-            .iter()
-            .fold(0.0_f64, |largest, &bound| largest.max(bound));
+        let finite = bounds.iter().filter(|bound| bound.is_finite());
+        let largest = finite.fold(0.0_f64, |largest, &bound| largest.max(bound));
         for (contact, role) in roles.iter_mut().enumerate() {
-            if bounds[contact] <= POINT * largest || self.set.unknowns(contact).is_empty() {
+            if bounds[contact].is_infinite() && !self.set.unknowns(contact).is_empty() {
+                *role = Role::Free;
+            } else if bounds[contact] <= POINT * largest || self.set.unknowns(contact).is_empty() {
                 *role = Role::Absent;
             } else if *role == Role::Absent {
                 *role = Role::Cone;

@@ -1,4 +1,4 @@
-//! The normal half-step (H1): normal reactions with friction held.
+//! The normal half-step (H1): normal reactions with friction held. Bilateral contacts have no bound.
 
 use super::reduced::{Half, HalfStepWork, Role, WorkingSet};
 use crate::problem::ContactProblem;
@@ -38,6 +38,11 @@ impl<'a> NormalHalfStep<'a> {
         for &n in normals {
             reaction[n] = 0.0;
         }
+        for (contact, role) in roles.iter_mut().enumerate() {
+            if self.problem.is_bilateral(contact) {
+                *role = Role::Free;
+            }
+        }
         let mut linear = self.problem.displacement(reaction);
         for (&n, g0) in normals.iter().zip(self.problem.initial_gap()) {
             linear[n] -= g0;
@@ -59,7 +64,7 @@ impl<'a> NormalHalfStep<'a> {
                 let gap = self.problem.gap(contact, &displacement);
                 let broken = match roles[contact] {
                     Role::Absent => gap < -tolerance * scale,
-                    Role::Free => x[n] > 0.0,
+                    Role::Free => x[n] > 0.0 && !self.problem.is_bilateral(contact),
                     Role::Cone => false,
                 };
                 if broken {
@@ -71,10 +76,17 @@ impl<'a> NormalHalfStep<'a> {
                 break;
             }
         }
-        for &n in normals {
-            reaction[n] = reaction[n].min(0.0);
-        }
+        self.admit(reaction);
         Some(work)
+    }
+
+    /// The nearest normal reactions that contacts can have.
+    pub(crate) fn admit(&self, reaction: &mut [f64]) {
+        for (contact, &n) in self.problem.normals().iter().enumerate() {
+            if !self.problem.is_bilateral(contact) {
+                reaction[n] = reaction[n].min(0.0);
+            }
+        }
     }
 }
 

@@ -38,9 +38,9 @@ pub struct HalfStepWork {
 /// The half of each contact's unknowns that a half-step moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Half {
-    /// `x ≤ 0`.
+    /// `x ≤ 0`, where not bilateral.
     Normal,
-    /// `‖x‖ ≤` bound.
+    /// `‖x‖ ≤` bound, where that is finite.
     Tangential,
 }
 
@@ -108,6 +108,14 @@ impl<'a> WorkingSet<'a> {
         })
     }
 
+    /// Whether anything bounds a contact's half of the reactions.
+    fn is_bounded(&self, contact: usize) -> bool {
+        match self.half {
+            Half::Normal => !self.problem.is_bilateral(contact),
+            Half::Tangential => !self.problem.sticks(contact),
+        }
+    }
+
     /// `None` if G is singular on the free unknowns.
     fn program(&self, roles: &[Role]) -> Option<ReducedProgram> {
         let (free, cone) = (with_role(roles, Role::Free), with_role(roles, Role::Cone));
@@ -116,18 +124,17 @@ impl<'a> WorkingSet<'a> {
             each.collect()
         };
         let form = self.problem.compliance().as_ref();
-        ReducedProgram::new(
-            form,
-            unknowns(&free),
-            unknowns(&cone),
-            |quadratic| match self.half {
-                Half::Normal => ConeProgram::nonpositive(quadratic),
+        ReducedProgram::new(form, unknowns(&free), unknowns(&cone), |quadratic| {
+            let bounded = cone.iter().map(|&contact| self.is_bounded(contact));
+            let bounded: Vec<bool> = bounded.collect();
+            match self.half {
+                Half::Normal => ConeProgram::nonpositive(quadratic, &bounded),
                 Half::Tangential => {
                     let sizes = cone.iter().map(|&contact| self.unknowns(contact).len());
-                    ConeProgram::discs(quadratic, &sizes.collect::<Vec<_>>())
+                    ConeProgram::discs(quadratic, &sizes.collect::<Vec<_>>(), &bounded)
                 }
-            },
-        )
+            }
+        })
     }
 }
 

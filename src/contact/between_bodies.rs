@@ -12,6 +12,7 @@ use nalgebra::Vector3;
 use super::carrying_side::{carrying, softest};
 use super::facing::Bodies;
 use super::frame::Stance;
+use super::held::Directions;
 use super::mortar::{self, Coverage, MortarNode, Surface};
 use super::pair::{Coupling, PairSurface, check_pair_body};
 use super::{ContactNode, ContactPair, OppositeNodes};
@@ -140,16 +141,16 @@ fn contacts(
     let mut coupled = mortar::average(coverage, body.model, &pair.place)?;
     let mut stances = Vec::with_capacity(coupled.nodes.len());
     for node in &mut coupled.nodes {
-        let still = still_axes(scene, own.body, other.body, node);
-        let normal = across_axes(node.normal, still);
+        let still = still_directions(scene, own.body, other.body, node);
+        let normal = across_directions(node.normal, &still);
         node.look_along(
             normal.unwrap_or(node.normal),
-            still,
+            &still,
             &body.mesh,
             &across.mesh,
         );
         stances.push(match normal {
-            Some(_) => Stance::new(dimension, node.normal, still),
+            Some(_) => Stance::new(dimension, node.normal, &still),
             None => Stance::Held,
         });
     }
@@ -175,7 +176,11 @@ fn contacts(
             pair: 0,
             position,
             frame,
-            tangents: if pair.friction == 0.0 { 0 } else { kept },
+            tangents: if pair.law.is_smooth(pair.friction) {
+                0
+            } else {
+                kept
+            },
             initial_gap: node.initial_gap,
             area: node.weight * body.model.depth(),
             bulge: node.bulge,
@@ -199,34 +204,45 @@ fn contacts(
     })
 }
 
-/// Axes along which supports hold the contact and most of what it meets; at the corner of a quadratic
+/// Directions along which supports hold the contact and most of what it meets; at the corner of a quadratic
 /// facet, across its normal any of it, as on a symmetry plane, where means reach inward.
-fn still_axes(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarNode) -> [bool; 3] {
+fn still_directions(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarNode) -> Directions {
     let dimension = scene.bodies[own].mesh.dimension;
-    let held = |body: usize, node: usize, axis: usize| {
-        scene.prescribed[body][node * dimension + axis].is_some()
+    let (normal, corner) = (Vector3::from(node.normal), scene.held(own, node.node));
+    let own_nodes = node.own.iter().map(|(near, _)| scene.held(own, *near));
+    let near: Vec<Directions> = own_nodes.collect();
+    let met: Vec<(Directions, f64)> = node
+        .met()
+        .map(|(across, weight)| (scene.held(other, across), weight))
+        .collect();
+    let oblique = std::iter::once(&corner).chain(&near);
+    let oblique = oblique.clone().find(|held| !held.are_axes());
+    let Directions(mut candidates) = match oblique {
+        Some(held) => held.clone().led_by(normal),
+        None => [true, true, dimension == 3].into(),
     };
-    std::array::from_fn(|axis| {
-        let corner = axis < dimension && held(own, node.node, axis);
-        let mut still = node.met().filter(|(across, _)| held(other, *across, axis));
+    candidates.retain(|direction| {
+        let at_corner = corner.hold(direction);
+        let mut still = met.iter().filter(|(held, _)| held.hold(direction));
         // What has moved along a line has left the plane that holds its corner, but not along a face.
         let beside = node.own.len() > 1 && (dimension == 3 || !node.moved);
-        if corner && beside && node.normal[axis].abs() < LEANING {
+        if at_corner && beside && normal.dot(direction).abs() < LEANING {
             return still.next().is_some();
         }
-        (corner || axis < dimension && node.moved)
-            && node.own.iter().all(|(near, _)| held(own, *near, axis))
+        (at_corner || node.moved)
+            && near.iter().all(|held| held.hold(direction))
             && still.map(|(_, weight)| weight).sum::<f64>() > MOSTLY
-    })
+    });
+    Directions(candidates)
 }
 
-/// The direction without its components along some axes; none if little is left.
-fn across_axes(direction: [f64; 3], axes: [bool; 3]) -> Option<[f64; 3]> {
-    let kept: [f64; 3] = std::array::from_fn(|i| if axes[i] { 0.0 } else { direction[i] });
-    if kept == direction {
+/// The direction without its components along some others; none if little is left.
+fn across_directions(direction: [f64; 3], still: &Directions) -> Option<[f64; 3]> {
+    let kept = still.across(direction.into());
+    if kept == Vector3::from(direction) {
         return Some(direction);
     }
-    let kept = Vector3::from(kept).try_normalize(LEANING)?;
+    let kept = kept.try_normalize(LEANING)?;
     Some(kept.into())
 }
 
@@ -258,8 +274,10 @@ mod tests {
                 facets: facets(&lower.mesh, "top"),
             },
             friction: 0.3,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         };
         (vec![upper, lower], pair)
     }

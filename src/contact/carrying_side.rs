@@ -66,6 +66,6 @@ pub(super) fn softest(body: &Body, facets: &[Facet]) -> f64 {
     let cells = body.mesh.cells().zip(&body.material_of_cell);
     let at_surface = cells.filter(|(cell, _)| cell.nodes.iter().any(|node| on_surface[*node]));
     at_surface
-        .map(|(_, material)| body.materials[*material].young)
+        .map(|(_, material)| body.materials[*material].softest())
         .fold(f64::INFINITY, f64::min)
 }

@@ -21,8 +21,9 @@
 
 use std::collections::HashMap;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 
+use super::held::Directions;
 use super::lift::{Distances, lifts};
 use super::rounding::Bulges;
 use crate::body::{Body, Facet, FacetGeometry, FacetPoint};
@@ -191,18 +192,20 @@ impl Footing {
     }
 }
 
-/// Axes along which supports hold a contact with the given normal: across it those that hold its
+/// Directions along which supports hold a contact with the given normal: across it those that hold its
 /// corner, as on a symmetry plane, along it those that hold all its nodes.
-pub(super) fn held_axes(
+pub(super) fn held_directions(
     node: usize,
     own: &[(usize, f64)],
-    normal: [f64; 3],
-    held: impl Fn(usize, usize) -> bool,
-) -> [bool; 3] {
-    std::array::from_fn(|axis| {
-        let across = normal[axis].abs() < ALONG;
-        held(node, axis) && (across || own.iter().all(|&(other, _)| held(other, axis)))
-    })
+    normal: Vector3<f64>,
+    held: impl Fn(usize) -> Directions,
+) -> Directions {
+    let Directions(mut directions) = held(node).led_by(normal);
+    directions.retain(|direction| {
+        let across = normal.dot(direction).abs() < ALONG;
+        across || own.iter().all(|&(other, _)| held(other).hold(direction))
+    });
+    Directions(directions)
 }
 
 #[cfg(test)]

@@ -13,9 +13,10 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
+use super::held::Directions;
 use super::rounding::{Bulges, Turns};
 use super::{ContactNode, ContactPair, Obstacle};
-use crate::body::{Body, Facet, FacetGeometry, Mesh};
+use crate::body::{Body, Dependence, Facet, FacetGeometry, Mesh};
 use crate::error::Error;
 
 /// Cosine between a facet's normal and the direction to the obstacle, above which it faces it.
@@ -41,6 +42,32 @@ pub(super) struct Bodies<'a> {
     pub(super) boundaries: &'a [Boundary<'a>],
     /// Prescribed displacement per body and degree of freedom.
     pub(super) prescribed: &'a [Vec<Option<f64>>],
+    /// What depends on what, per body.
+    pub(super) tied: &'a [Option<Dependence>],
+}
+
+impl Bodies<'_> {
+    /// Directions along which a node is held.
+    pub(super) fn held(&self, body: usize, node: usize) -> Directions {
+        let (prescribed, tied) = (&self.prescribed[body], self.tied[body].as_ref());
+        let dimension = self.bodies[body].mesh.dimension;
+        Directions::of(prescribed, tied, dimension, node)
+    }
+
+    /// By how much supports move a node along a direction, in metre; zero where it is free.
+    pub(super) fn given_along(&self, body: usize, node: usize, direction: &Vector3<f64>) -> f64 {
+        let dimension = self.bodies[body].mesh.dimension;
+        let given = |axis: usize| {
+            let unknown = dimension * node + axis;
+            match &self.tied[body] {
+                Some(tied) => tied.stated(unknown),
+                None => self.prescribed[body][unknown].unwrap_or(0.0),
+            }
+        };
+        let held = self.held(body, node).hold(direction);
+        let along = (0..dimension).map(|axis| direction[axis] * given(axis));
+        if held { along.sum() } else { 0.0 }
+    }
 }
 
 impl<'a> Boundary<'a> {
@@ -115,7 +142,7 @@ impl<'a> Boundary<'a> {
         for facet in self.outward(&pair.facets, &format!("{}.facets", pair.place))? {
             let geometry = self.body.facet_geometry(&facet);
             let seen_from = obstacle.closest(&pair.place, self.centre(&facet))?;
-            if cosine(geometry.normal, seen_from.direction) > FACING {
+            if !seen_from.beyond && cosine(geometry.normal, seen_from.direction) > FACING {
                 facing.push((facet, geometry));
             }
         }

@@ -1,11 +1,13 @@
 //! Normal and tangents of one contact node, and what its supports leave of them.
 //!
 //! ```text
-//! F: supported axes        n ∈ span F    the normal is held: no contact
+//! F: supported directions     n ∈ span F    the normal is held: no contact
 //!                          n ⟂ span F    the tangents along F are held, the others kept
 //! ```
 
 use nalgebra::Vector3;
+
+use super::held::Directions;
 
 /// Largest component by which a normal may miss the supported axes, or their complement.
 const ALIGNED: f64 = 1e-8;
@@ -27,20 +29,19 @@ pub(crate) enum Stance {
 }
 
 impl Stance {
-    /// The stance of a node with unit normal `normal` and supported global axes `supported`.
-    pub(crate) fn new(dimension: usize, normal: [f64; 3], supported: [bool; 3]) -> Self {
+    /// The stance of a node with unit normal `normal` and supported directions.
+    pub(crate) fn new(dimension: usize, normal: [f64; 3], supported: &Directions) -> Self {
         let normal = Vector3::from(normal);
-        let held_axes = Vector3::from(supported.map(|held| if held { 1.0 } else { 0.0 }));
-        let along = normal.component_mul(&held_axes);
-        if held_axes != Vector3::zeros() && (normal - along).norm() < ALIGNED {
+        let along = supported.along(normal);
+        if !supported.0.is_empty() && (normal - along).norm() < ALIGNED {
             return Self::Held;
         }
         if along.norm() >= ALIGNED {
             return Self::Askew;
         }
-        // Exactly across, so that the frame is orthonormal and held rows are global axes.
-        let normal = (normal - along).normalize();
-        let held = supported.iter().filter(|&&held| held).count();
+        // Exactly across, so that the frame is orthonormal and held rows are the supported directions.
+        let normal = supported.across(normal).normalize();
+        let held = supported.0.len();
         let [first, second] = tangents(dimension, normal, supported);
         Self::Free {
             frame: [normal, first, second].map(|row| row.map(|x| x + 0.0).into()),
@@ -49,14 +50,14 @@ impl Stance {
     }
 }
 
-/// Two tangents, those along supported axes last.
-fn tangents(dimension: usize, normal: Vector3<f64>, supported: [bool; 3]) -> [Vector3<f64>; 2] {
+/// Two tangents, those along supported directions last.
+fn tangents(dimension: usize, normal: Vector3<f64>, supported: &Directions) -> [Vector3<f64>; 2] {
     if dimension == 2 {
         return [Vector3::new(-normal.y, normal.x, 0.0), Vector3::z()];
     }
     let axis = |index: usize| Vector3::ith_axis(index).into_inner();
-    if let Some(held) = supported.iter().position(|&held| held) {
-        return [axis(held).cross(&normal), axis(held)];
+    if let Some(held) = supported.0.first() {
+        return [held.cross(&normal), *held];
     }
     // The global axis farthest from the normal; the first one where two are as far.
     let farthest = normal.map(f64::abs).imin();
@@ -70,7 +71,7 @@ mod tests {
     use super::*;
 
     fn frame(dimension: usize, normal: [f64; 3], supported: [bool; 3]) -> ([[f64; 3]; 3], usize) {
-        match Stance::new(dimension, normal, supported) {
+        match Stance::new(dimension, normal, &supported.into()) {
             Stance::Free { frame, kept } => (frame, kept),
             other => panic!("{other:?}"),
         }
@@ -125,16 +126,19 @@ mod tests {
 
     #[test]
     fn a_support_of_the_normal_leaves_no_contact() {
-        let pinned = Stance::new(2, [0.0, -1.0, 0.0], [true, true, false]);
+        let pinned = Stance::new(2, [0.0, -1.0, 0.0], &[true, true, false].into());
         assert_eq!(pinned, Stance::Held);
-        let on_wedge = Stance::new(3, [0.6, 0.8, 0.0], [true, true, false]);
+        let on_wedge = Stance::new(3, [0.6, 0.8, 0.0], &[true, true, false].into());
         assert_eq!(on_wedge, Stance::Held);
-        assert_eq!(Stance::new(3, [1.0, 0.0, 0.0], [true; 3]), Stance::Held);
+        assert_eq!(
+            Stance::new(3, [1.0, 0.0, 0.0], &[true; 3].into()),
+            Stance::Held
+        );
     }
 
     #[test]
     fn a_support_at_an_angle_to_the_normal_is_askew() {
-        let found = Stance::new(2, [0.6, 0.8, 0.0], [true, false, false]);
+        let found = Stance::new(2, [0.6, 0.8, 0.0], &[true, false, false].into());
         assert_eq!(found, Stance::Askew);
     }
 }

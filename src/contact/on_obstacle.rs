@@ -3,10 +3,14 @@
 //! Beside an axisymmetric body an obstacle goes around the axis: a plane is a cone, or a disc, and a
 //! circle a ball. What stands on the axis sees only along it, to the apex of a cone.
 
-use super::corner_weights::{Footing, footings, held_axes};
+use nalgebra::Vector3;
+
+use super::corner_weights::{Footing, footings, held_directions};
 use super::facing::Bodies;
 use super::frame::Stance;
+use super::held::Directions;
 use super::pair::{Coupling, PairSurface};
+use super::repeated;
 use super::{Closest, ContactNode, ContactPair, Obstacle};
 use crate::body::{Axis, Body, Facet};
 use crate::error::Error;
@@ -36,11 +40,16 @@ pub(super) fn on_obstacle(
     let (rounded, largest_bulge) = bulges.rounded(&every);
     for footing in footings(body, &facing, &bulges, gap)? {
         let node = footing.node;
-        match view.contact(footing, &scene.prescribed[pair.body])? {
+        let closest = view.closest(node, body.mesh.nodes[node])?;
+        if closest.beyond {
+            continue;
+        }
+        match view.contact(footing, closest, scene)? {
             Some(contact) => contacts.push(contact),
             None => left_out.push(node),
         }
     }
+    let mut contacts = repeated::join(contacts, body);
     boundary.mark_rims(&mut contacts, &pair.facets, None);
     Ok(PairSurface {
         coupling: Coupling {
@@ -66,15 +75,9 @@ struct View<'a> {
 impl View<'_> {
     /// Refuses what does not go around the axis.
     fn check(&self) -> Result<(), Error> {
-        match (self.axis, self.obstacle) {
-            (Some(_), Obstacle::Cylinder { center, .. }) if center[0] != 0.0 => {
-                Err(Error::OutOfRange {
-                    place: format!("{}.obstacle.center[0]", self.pair.place),
-                    value: center[0],
-                    accepted: "0: beside an axisymmetric body a circle is a ball on the axis",
-                })
-            }
-            _ => Ok(()),
+        match self.axis {
+            Some(_) => self.obstacle.check_around(&self.pair.place),
+            None => Ok(()),
         }
     }
 
@@ -89,6 +92,7 @@ impl View<'_> {
         Ok(Closest {
             distance: closest.distance / along.abs(),
             direction: [0.0, along.signum(), 0.0],
+            ..closest
         })
     }
 
@@ -96,19 +100,22 @@ impl View<'_> {
     fn contact(
         &self,
         footing: Footing,
-        prescribed: &[Option<f64>],
+        closest: Closest,
+        scene: &Bodies<'_>,
     ) -> Result<Option<ContactNode>, Error> {
         let (pair, node) = (self.pair, footing.node);
         let dimension = self.body.mesh.dimension;
         let position = self.body.mesh.nodes[node];
-        let closest = self.closest(node, position)?;
-        let given = |node: usize, axis: usize| match axis < dimension {
-            true => prescribed[node * dimension + axis],
-            false => None,
+        let held = |node| scene.held(pair.body, node);
+        let mut supported = held_directions(node, &footing.own, closest.direction.into(), held);
+        let found = Stance::new(dimension, closest.direction, &supported);
+        let stance = match (found, !pair.law.is_smooth(pair.friction)) {
+            (Stance::Free { frame, .. }, true) => {
+                self.slip_by_supports(&footing, frame[0], scene, &mut supported)?;
+                Stance::new(dimension, closest.direction, &supported)
+            }
+            (found, _) => found,
         };
-        let held = |node, axis| given(node, axis).is_some();
-        let supported = held_axes(node, &footing.own, closest.direction, held);
-        let stance = Stance::new(dimension, closest.direction, supported);
         let (frame, kept) = match stance {
             Stance::Held => return Ok(None),
             Stance::Free { frame, kept } => (frame, kept),
@@ -118,24 +125,10 @@ impl View<'_> {
                     node,
                     position,
                     normal: closest.direction,
-                    axes: axes(supported),
+                    axes: axes(&supported),
                 });
             }
         };
-        let own = footing.own.iter().map(|(node, _)| *node);
-        let across = (0..dimension).filter(|axis| frame[0][*axis] == 0.0);
-        let moved = own.flat_map(|node| across.clone().map(move |axis| (axis, given(node, axis))));
-        let mut moved = moved.filter_map(|(axis, u)| Some((axis, u.filter(|u| *u != 0.0)?)));
-        if let (Some((axis, displacement)), true) = (moved.next(), pair.friction > 0.0) {
-            return Err(Error::DraggedContact {
-                place: pair.place.clone(),
-                node,
-                position,
-                friction: pair.friction,
-                displacement,
-                axis: AXES[axis],
-            });
-        }
         let initial_gap = match footing.own.as_slice() {
             [_] => closest.distance,
             _ => footing.gap,
@@ -148,7 +141,11 @@ impl View<'_> {
             pair: 0,
             position,
             frame,
-            tangents: if pair.friction == 0.0 { 0 } else { kept },
+            tangents: if pair.law.is_smooth(pair.friction) {
+                0
+            } else {
+                kept
+            },
             initial_gap,
             area: footing.area * self.body.model.depth(),
             bulge: footing.bulge,
@@ -158,12 +155,50 @@ impl View<'_> {
     }
 }
 
+impl View<'_> {
+    /// Keeps of the supported directions of a contact with friction those along which nothing moves it: along
+    /// the others it slips, if that is meant.
+    fn slip_by_supports(
+        &self,
+        footing: &Footing,
+        normal: [f64; 3],
+        scene: &Bodies<'_>,
+        supported: &mut Directions,
+    ) -> Result<(), Error> {
+        let (pair, dimension) = (self.pair, self.body.mesh.dimension);
+        let moved = |direction: &Vector3<f64>| {
+            let own = footing.own.iter();
+            let mut moved = own.map(|(node, _)| scene.given_along(pair.body, *node, direction));
+            moved.find(|u| *u != 0.0)
+        };
+        let across = (0..dimension).filter(|axis| normal[*axis] == 0.0);
+        let across = across.map(|axis| Vector3::ith(axis, 1.0));
+        let mut directions = supported.0.iter().copied().chain(across);
+        let refused = directions.find_map(|direction| Some((moved(&direction)?, direction)));
+        if let (Some((displacement, direction)), false) = (refused, pair.dragged) {
+            return Err(Error::DraggedContact {
+                place: pair.place.clone(),
+                node: footing.node,
+                position: self.body.mesh.nodes[footing.node],
+                friction: pair.friction,
+                displacement,
+                axis: AXES[direction.iamax()],
+            });
+        }
+        supported.0.retain(|direction| moved(direction).is_none());
+        Ok(())
+    }
+}
+
 const AXES: [char; 3] = ['x', 'y', 'z'];
 
-/// The supported axes in words.
-fn axes(held: [bool; 3]) -> String {
-    let named = AXES.iter().zip(held).filter(|(_, held)| *held);
-    let named: Vec<String> = named.map(|(axis, _)| axis.to_string()).collect();
+/// The supported directions in words.
+fn axes(held: &Directions) -> String {
+    let name = |direction: &Vector3<f64>| match direction.iter().position(|d| *d == 1.0) {
+        Some(axis) => AXES[axis].to_string(),
+        None => format!("{:?}", <[f64; 3]>::from(*direction)),
+    };
+    let named: Vec<String> = held.0.iter().map(name).collect();
     named.join(" and ")
 }
 
@@ -189,8 +224,10 @@ mod tests {
             body: 0,
             opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
             friction: 0.3,
+            law: crate::contact::PairLaw::default(),
             rounded: true,
             gap: 0.0,
+            dragged: false,
         }
     }
 
@@ -204,6 +241,7 @@ mod tests {
             nodes: nodes.to_vec(),
             displacement,
             offsets: Vec::new(),
+            axes: Vec::new(),
         });
     }
 

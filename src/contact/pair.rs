@@ -1,6 +1,7 @@
 //! A pair of sides that may touch, as a scene names it, and what it adds to the contact surface.
 
 use super::Obstacle;
+use super::law::PairLaw;
 use super::node::ContactNode;
 use crate::body::Facet;
 use crate::error::{Error, check_finite};
@@ -23,11 +24,15 @@ pub struct ContactPair {
     pub opposite: Opposite,
     /// Coefficient of friction, `μ ≥ 0`.
     pub friction: f64,
+    /// What the contacts obey beside it.
+    pub law: PairLaw,
     /// Gaps are measured between the smooth surfaces that straight facets stand for, where
     /// these turn; else between the facets.
     pub rounded: bool,
     /// Added to all gaps before loading, in metre: clearance if positive, interference if negative.
     pub gap: f64,
+    /// Supports may move its nodes along the obstacle, and friction acts against that motion.
+    pub dragged: bool,
 }
 
 /// The other side of a contact pair.
@@ -45,6 +50,16 @@ pub enum Opposite {
 }
 
 impl ContactPair {
+    /// Whether it is one of two bodies, whichever it names first.
+    pub(crate) fn joins(&self, bodies: [usize; 2]) -> bool {
+        match &self.opposite {
+            Opposite::Obstacle(_) => false,
+            Opposite::Surface { body, .. } => {
+                [self.body, *body] == bodies || [*body, self.body] == bodies
+            }
+        }
+    }
+
     pub(super) fn check(&self, dimension: usize) -> Result<(), Error> {
         if let Opposite::Obstacle(obstacle) = &self.opposite {
             obstacle.check(&self.place, dimension)?;
@@ -58,6 +73,7 @@ impl ContactPair {
             });
         }
         check_finite(&place, &[self.friction])?;
+        self.law.check(&self.place, self.friction)?;
         check_finite(&format!("{}.gap", self.place), &[self.gap])
     }
 }

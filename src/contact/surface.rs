@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! area of node i    Σ ∫ N_i dA        over the facing facets of its pair
-//! initial gap       signed distance from the node to the obstacle
+//! initial gap       signed distance from the node to the obstacle; zero where the sides are tied as they are drawn
 //! ```
 //!
 //! Contacts stand at corners; those of quadratic facets move with the nodes around, (C16) in
@@ -13,7 +13,7 @@ use super::facing::{Bodies, Boundary};
 use super::node::ContactNode;
 use super::on_obstacle::on_obstacle;
 use super::pair::{ContactPair, Coupling, Opposite, check_pair_body};
-use crate::body::{Body, Facet};
+use crate::body::{Body, Dependence, Facet, dependence};
 use crate::error::{Error, check_length};
 
 /// The contact nodes in the order of the contact problem, and what was left out.
@@ -62,7 +62,10 @@ impl ContactSurface {
         let mut surface = Self::default();
         let boundaries = bodies.iter().map(Boundary::new);
         let boundaries: Vec<Boundary> = boundaries.collect();
+        let tied = bodies.iter().map(dependence);
+        let tied: Vec<Option<Dependence>> = tied.collect::<Result<_, _>>()?;
         let scene = Bodies {
+            tied: &tied,
             bodies,
             boundaries: &boundaries,
             prescribed,
@@ -78,6 +81,10 @@ impl ContactSurface {
             };
             for contact in &mut found.contacts {
                 contact.pair = index;
+                if pair.law.bilateral {
+                    // As they are drawn.
+                    contact.initial_gap = 0.0;
+                }
             }
             let body = found.coupling.body;
             let of_body = |facet| (body, facet);
@@ -101,7 +108,7 @@ impl ContactSurface {
     /// Motion of each contact's other side in global axes, from that of the obstacle per contact
     /// pair; zero between bodies, and for a pair without an entry. In metre.
     #[must_use]
-    pub fn obstacle_motions(&self, obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    pub(crate) fn obstacle_motions(&self, obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let of = |contact: &ContactNode| match contact.opposite {
             None => obstacles.get(contact.pair).copied().unwrap_or_default(),
             Some(_) => [0.0; 3],

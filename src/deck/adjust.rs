@@ -12,7 +12,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::interaction::{Adjust, Pair};
-use crate::mesh_file::abaqus::{Contents, Side};
+use crate::mesh_file::abaqus::{Contents, Shape, Side};
 
 type Point = [f64; 3];
 
@@ -77,7 +77,9 @@ fn onto(pieces: &[Piece], point: Point, reach: f64) -> Option<Point> {
 fn follow(contents: &Contents, slave: &BTreeSet<usize>, moves: &mut BTreeMap<usize, Point>) {
     let mut middles = BTreeMap::new();
     for element in &contents.elements {
-        let kind = element.kind.cell;
+        let Shape::Cell(kind) = element.kind.shape else {
+            continue;
+        };
         if !element.nodes.iter().any(|node| moves.contains_key(node)) {
             continue;
         }
@@ -104,7 +106,7 @@ fn follow(contents: &Contents, slave: &BTreeSet<usize>, moves: &mut BTreeMap<usi
 /// The pieces of a facet, its middle nodes among their corners.
 fn pieces(contents: &Contents, side: Side) -> Vec<Piece> {
     let nodes = contents.facet(side);
-    let solid = contents.elements[side.0].kind.cell.dimension() == 3;
+    let solid = contents.elements[side.0].kind.shape.dimension() == 3;
     let cuts: &[&[usize]] = match (solid, nodes.len()) {
         (false, 2) => &[&[0, 1]],
         (false, _) => &[&[0, 2], &[2, 1]],

@@ -10,7 +10,7 @@ use super::parts::{Part, Parts};
 use super::statement::Notes;
 use crate::body::{Facet, Group, Mesh};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Contents, Side, Space};
+use crate::mesh_file::abaqus::{Contents, Shape, Side, Space};
 use crate::scene::{
     MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel, SceneSteps,
     SceneSupport, SceneSurface,
@@ -83,16 +83,13 @@ impl Stock<'_, '_> {
                 }
             }
             cell.insert(at, mesh.cell_count());
-            mesh.push_cell(element.kind.cell, &local);
+            if let Shape::Cell(kind) = element.kind.shape {
+                mesh.push_cell(kind, &local);
+            }
         }
         let mut body = SceneBody {
-            name: of_part.name.clone(),
-            mesh: MeshSource::Given(Mesh::default()),
             model: Some(model(of_part)),
-            materials: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            foundation: Vec::new(),
+            ..SceneBody::new(&of_part.name, Mesh::default())
         };
         let mut of_material: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for at in &cells {
@@ -186,7 +183,7 @@ impl Stock<'_, '_> {
                         body: Some(self.parts.parts[master].name.clone()),
                         group: against.clone(),
                     }),
-                    friction: law.friction,
+                    friction: Some(law.friction),
                     ..SceneContact::default()
                 });
             }

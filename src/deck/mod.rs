@@ -20,7 +20,7 @@
 //! | `*STEP`, `*STATIC` | an instant per step and per time of an amplitude; `NLGEOM` is noted, displacements are small |
 //!
 //! What changes the mechanics and is not read is refused by file, line and keyword: shells, beams,
-//! wedges, tied surfaces, equations, rigid bodies, couplings, preloaded bolts, springs, thermal
+//! tied surfaces, equations, rigid bodies, couplings, preloaded bolts, springs, thermal
 //! expansion, plasticity, dynamics, contacts that come and go. What steers a numerical method, and
 //! steps of `*FREQUENCY`, are noted and left. Numbers keep the deck's units. Sources: Abaqus keywords
 //! reference, CalculiX CrunchiX user's manual.
@@ -38,7 +38,7 @@ mod statement;
 use std::path::Path;
 
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Contents, Source, cards, flatten};
+use crate::mesh_file::abaqus::{Contents, ElementKind, Source, cards, flatten};
 use crate::scene::{Scene, read};
 
 use amplitude::amplitudes;
@@ -101,7 +101,7 @@ impl Deck {
         };
         let flat = flatten(&cards)?;
         let statement = Statement::new(&flat, &mut notes)?;
-        let contents = Contents::new(&flat)?;
+        let contents = Contents::new(&flat, ElementKind::new)?;
         if contents.elements.is_empty() {
             return Err(last.error("the deck ends; expected *NODE and *ELEMENT with data"));
         }

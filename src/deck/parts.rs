@@ -67,7 +67,7 @@ impl Parts {
                 found.parts.len() - 1
             });
             let of_part = &found.parts[part];
-            let plane = element.kind.cell.dimension() == 2;
+            let plane = element.kind.shape.dimension() == 2;
             if of_part.space != element.kind.space
                 || (plane && of_part.thickness != section.thickness)
             {

@@ -25,8 +25,8 @@ impl ElasticHalf {
                 accepted,
             })
         };
-        if self.young <= 0.0 {
-            return refuse("young", self.young, "young > 0");
+        if !(1e-50..=1e50).contains(&self.young) {
+            return refuse("young", self.young, "young > 0, from 1e-50 to 1e50");
         }
         if !(0.0..=0.5).contains(&self.poisson) {
             return refuse("poisson", self.poisson, "0 <= poisson <= 0.5");

@@ -19,7 +19,8 @@ impl Grid {
     ///
     /// # Errors
     ///
-    /// [`Error::OutOfRange`] for no cells or more than 2²⁵, and for a side that is not positive;
+    /// [`Error::OutOfRange`] for no cells or more than 2²⁵, and for a side that is not
+    /// positive or beyond 1e±50;
     /// [`Error::NotFinite`].
     pub fn new(cells: [usize; 2], spacing: [f64; 2]) -> Result<Self, Error> {
         check_finite("grid.spacing", &spacing)?;
@@ -35,8 +36,9 @@ impl Grid {
                 let accepted = "from 1 to 33554432 cells";
                 return refuse("cells", axis, cells[axis] as f64, accepted);
             }
-            if spacing[axis] <= 0.0 {
-                return refuse("spacing", axis, spacing[axis], "spacing > 0");
+            if !(1e-50..=1e50).contains(&spacing[axis]) {
+                let accepted = "spacing > 0, from 1e-50 to 1e50";
+                return refuse("spacing", axis, spacing[axis], accepted);
             }
         }
         if cells[0].saturating_mul(cells[1]) > MOST_CELLS {

@@ -14,6 +14,8 @@
 //! (S12) random surfaces                          `rough`
 //! (S13) all laws at once                         `finish`: Newton's method with GMRES
 //! (S14) rolling                                  `rolling`
+//! (S15) power spectrum                           `spectrum`
+//! (S16) stiffness                                `stiffness`
 //! ```
 //!
 //! The half-space fills `z < 0`; n = z points to the other side, a rigid body or a second half-space
@@ -65,9 +67,12 @@ mod rectangle;
 mod rolling;
 mod rough;
 mod run;
+mod spectrum;
+mod stiffness;
 mod sweep;
 mod symbol;
 mod transform;
+mod unknowns;
 mod vectors;
 
 pub use clusters::clusters;
@@ -78,5 +83,8 @@ pub use outcome::{
     HalfSpaceCertificate, HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork,
 };
 pub use problem::{Drag, HalfSpaceProblem, Press};
+#[cfg(feature = "cli")]
+pub(crate) use rectangle::Influence;
 pub use rolling::Creepage;
 pub use rough::SelfAffine;
+pub use spectrum::{SpectrumRing, power_spectrum};

@@ -131,7 +131,9 @@ impl NormalHalfStep<'_> {
             Some(_) if !cells.is_empty() => {
                 sum(cells.len(), |at| gap[cells[at]]) / cells.len() as f64
             }
-            Some(_) | None => 0.0,
+            // Nothing presses: the surfaces just touch.
+            Some(_) => gap.iter().copied().fold(f64::INFINITY, f64::min),
+            None => 0.0,
         };
         let defect = sum(force.len(), |at| {
             let defect = force[at].min(step * (gap[at] - approach));

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 use super::compliance::{ElasticHalf, SurfaceCompliance};
 use super::grid::Grid;
 use super::points::Points;
-use super::rectangle::{KERNELS, rectangle, strip};
+use super::rectangle::{KERNELS, arranged, rectangle, strip};
 use super::symbol::Symbols;
 use super::transform::{Convolution, Mix, Transforms};
 use super::vectors::Pair;
@@ -164,9 +164,8 @@ impl HalfSpace {
         let (at, of) = (self.grid.position(at), self.grid.position(of));
         let offset = [0, 1].map(|axis| (at[axis] - of[axis]) / self.grid.spacing[axis]);
         let offset = offset.map(f64::round);
-        let [nn, xx, yy, xy, xn, yn] =
-            influence(&self.grid, self.surroundings, &self.compliance, offset);
-        Some([[nn, -xn, -yn], [xn, xx, xy], [yn, xy, yy]])
+        let kernels = influence(&self.grid, self.surroundings, &self.compliance, offset);
+        Some(arranged(kernels))
     }
 
     /// Symbol of a periodic operator at a wave, as [`HalfSpace::influence`]; NN, xx, yy, xy and the
@@ -304,23 +303,6 @@ impl HalfSpace {
         let mix: Mix = &|column, waves| self.symbols.tangential_of_normal(column, waves);
         let [_, x, y] = self.transforms.convolve(&asked, mix);
         [x, y]
-    }
-
-    /// The matrix itself on chosen cells in rising order, normal, x, y of each, for problems small
-    /// enough to have one: row after row, in m/N.
-    #[must_use]
-    pub fn entries(&self, chosen: impl Fn(usize) -> bool) -> Vec<Vec<f64>> {
-        let on = Points::select(&self.grid, chosen);
-        let columns: Vec<[Vec<f64>; 3]> = (0..3 * on.len())
-            .map(|unknown| {
-                let mut unit = [0, 1, 2].map(|_| vec![0.0; on.len()]);
-                unit[unknown % 3][unknown / 3] = 1.0;
-                self.full([&unit[0], &unit[1], &unit[2]], &on, &on)
-            })
-            .collect();
-        let entry = |row: usize, column: usize| columns[column][row % 3][row / 3];
-        let row = |row: usize| (0..3 * on.len()).map(|column| entry(row, column)).collect();
-        (0..3 * on.len()).map(row).collect()
     }
 }
 

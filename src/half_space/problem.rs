@@ -7,6 +7,9 @@ use super::outcome::HalfSpaceOutcome;
 use super::vectors::{Pair, zero_pair};
 use crate::error::{Error, check_finite, check_length};
 
+/// Largest number of metre or newton.
+const LARGEST: f64 = 1e50;
+
 /// How the other side is pressed on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Press {
@@ -44,8 +47,8 @@ impl HalfSpaceProblem {
     ///
     /// # Errors
     ///
-    /// A length that does not fit, a NaN or infinity, a negative coefficient, a load that pulls, an
-    /// approach on a periodic surface, whose mean no pressure moves.
+    /// A length that does not fit, a NaN or a number beyond 1e50, a negative coefficient, a load that
+    /// pulls, an approach on a periodic surface, whose mean no pressure moves.
     pub fn new(
         operator: Arc<HalfSpace>,
         initial_gap: Vec<f64>,
@@ -54,16 +57,10 @@ impl HalfSpaceProblem {
     ) -> Result<Self, Error> {
         let cells = operator.grid().len();
         check_length("initial_gap", cells, initial_gap.len())?;
-        check_finite("initial_gap", &initial_gap)?;
-        check_friction(friction)?;
-        let friction = match friction {
-            [all] => vec![*all; cells],
-            each => each.to_vec(),
-        };
-        check_length("friction", cells, friction.len())?;
+        check_size("initial_gap", &initial_gap)?;
         check_press(press, operator.surroundings())?;
         Ok(Self {
-            friction,
+            friction: friction_per_cell(friction, cells)?,
             initial_gap,
             press,
             drag: Drag::Shift([0.0; 2]),
@@ -79,8 +76,8 @@ impl HalfSpaceProblem {
     /// A NaN or infinity.
     pub fn dragged(mut self, drag: Drag) -> Result<Self, Error> {
         match drag {
-            Drag::Shift(shift) => check_finite("shift", &shift)?,
-            Drag::Force(force) => check_finite("force", &force)?,
+            Drag::Shift(shift) => check_size("shift", &shift)?,
+            Drag::Force(force) => check_size("force", &force)?,
         }
         self.drag = drag;
         Ok(self)
@@ -97,6 +94,16 @@ impl HalfSpaceProblem {
         Ok(self)
     }
 
+    /// The same problem with other coefficients of friction, one per cell or one for all.
+    ///
+    /// # Errors
+    ///
+    /// As [`HalfSpaceProblem::new`].
+    pub fn with_friction(mut self, friction: &[f64]) -> Result<Self, Error> {
+        self.friction = friction_per_cell(friction, self.friction.len())?;
+        Ok(self)
+    }
+
     /// The same problem, whose slip counts from `reference` on: relative displacement along x and y
     /// that the contacts had before, in metre per cell (C13).
     ///
@@ -106,7 +113,7 @@ impl HalfSpaceProblem {
     pub fn after(mut self, reference: [Vec<f64>; 2]) -> Result<Self, Error> {
         for (part, place) in reference.iter().zip(["reference[0]", "reference[1]"]) {
             check_length(place, self.operator.grid().len(), part.len())?;
-            check_finite(place, part)?;
+            check_size(place, part)?;
         }
         self.reference = reference;
         Ok(self)
@@ -162,16 +169,37 @@ impl HalfSpaceProblem {
     }
 }
 
-fn check_friction(friction: &[f64]) -> Result<(), Error> {
-    check_finite("friction", friction)?;
-    match friction.iter().position(|&mu| mu < 0.0) {
+/// Finite, and small enough for squares of products.
+fn check_size(place: &str, values: &[f64]) -> Result<(), Error> {
+    check_finite(place, values)?;
+    match values.iter().position(|value| value.abs() > LARGEST) {
         None => Ok(()),
         Some(at) => Err(Error::OutOfRange {
+            place: match values.len() {
+                1 => place.to_owned(),
+                _ => format!("{place}[{at}]"),
+            },
+            value: values[at],
+            accepted: "at most 1e50: choose larger units",
+        }),
+    }
+}
+
+fn friction_per_cell(friction: &[f64], cells: usize) -> Result<Vec<f64>, Error> {
+    check_finite("friction", friction)?;
+    if let Some(at) = friction.iter().position(|&mu| mu < 0.0) {
+        return Err(Error::OutOfRange {
             place: format!("friction[{at}]"),
             value: friction[at],
             accepted: "friction >= 0",
-        }),
+        });
     }
+    let friction = match friction {
+        [all] => vec![*all; cells],
+        each => each.to_vec(),
+    };
+    check_length("friction", cells, friction.len())?;
+    Ok(friction)
 }
 
 fn check_press(press: Press, surroundings: Surroundings) -> Result<(), Error> {
@@ -179,7 +207,7 @@ fn check_press(press: Press, surroundings: Surroundings) -> Result<(), Error> {
         Press::Approach(approach) => ("approach", approach),
         Press::Load(load) => ("load", load),
     };
-    check_finite(place, &[value])?;
+    check_size(place, &[value])?;
     match press {
         Press::Load(load) if load < 0.0 => Err(Error::OutOfRange {
             place: place.to_owned(),

@@ -16,10 +16,49 @@
 
 use std::f64::consts::PI;
 
+#[cfg(feature = "cli")]
+use super::compliance::ElasticHalf;
 use super::compliance::SurfaceCompliance;
+#[cfg(feature = "cli")]
+use crate::error::Error;
 
 /// The kernels that differ, in this order: NN, xx, yy, xy, xN, yN.
 pub(super) const KERNELS: usize = 6;
+
+/// What a study needs: displacement by forces on patches anywhere: rows and columns normal, x, y, in m/N.
+#[cfg(feature = "cli")]
+pub(crate) struct Influence(SurfaceCompliance);
+
+#[cfg(feature = "cli")]
+impl Influence {
+    /// Of one half-space on a rigid body, or of two.
+    pub(crate) fn new(material: ElasticHalf, other: Option<ElasticHalf>) -> Result<Self, Error> {
+        Ok(Self(SurfaceCompliance::new(material, other)?))
+    }
+
+    /// (S3) at an offset in metre from the middle of a rectangle.
+    pub(crate) fn of_rectangle(&self, sides: [f64; 2], offset: [f64; 2]) -> [[f64; 3]; 3] {
+        // An edge just there has a logarithm times zero.
+        let beside = [0, 1].map(|axis| {
+            let half = 0.5 * sides[axis];
+            match (offset[axis].abs() - half).abs() < 1e-9 * half {
+                true => offset[axis] + 2e-9 * half,
+                false => offset[axis],
+            }
+        });
+        arranged(rectangle(&self.0, sides, beside))
+    }
+
+    /// (S4) at a distance in metre from the middle of a strip; displacements vanish at `datum`.
+    pub(crate) fn of_strip(&self, width: f64, datum: f64, offset: f64) -> [[f64; 3]; 3] {
+        arranged(strip(&self.0, width, datum, offset))
+    }
+}
+
+/// Kernels as a matrix.
+pub(super) fn arranged([nn, xx, yy, xy, xn, yn]: [f64; KERNELS]) -> [[f64; 3]; 3] {
+    [[nn, -xn, -yn], [xn, xx, xy], [yn, xy, yy]]
+}
 
 /// Antiderivatives of 1/r, x²/r³, y²/r³, xy/r³, x/r², y/r² at a corner, neither coordinate zero.
 fn antiderivatives([x, y]: [f64; 2]) -> [f64; KERNELS] {

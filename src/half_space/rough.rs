@@ -130,7 +130,7 @@ impl SelfAffine {
 }
 
 /// Sum of waves at every cell, in place.
-fn transform(waves: &mut [Complex<f64>], [columns, rows]: [usize; 2]) {
+pub(super) fn transform(waves: &mut [Complex<f64>], [columns, rows]: [usize; 2]) {
     let mut planner = FftPlanner::new();
     planner.plan_fft_inverse(columns).process(waves);
     let plan = planner.plan_fft_inverse(rows);

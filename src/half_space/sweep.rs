@@ -228,6 +228,11 @@ impl HalfSpaceProblem {
         let radius = |cell: usize| self.friction[cell] * pressed.force[cell];
         let contact = Points::select(self.operator.grid(), |cell| radius(cell) > 0.0);
         let bound: Vec<f64> = contact.cells().iter().map(|&cell| radius(cell)).collect();
+        if contact.is_empty() {
+            (iterate.rubbing, iterate.slip) = (zero_pair(0), zero_pair(0));
+            (iterate.contact, iterate.bound) = (contact, bound);
+            return 0.0;
+        }
         let mut force = iterate.scaled(&contact, &bound);
         let pressing = pressed.points.gather(&pressed.force);
         let mut constant = self

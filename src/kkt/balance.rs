@@ -77,8 +77,7 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     state.check()?;
     let contact = state.contact_forces();
     let support = state.support_reactions(&contact);
-    let held = keep(&support, |k| state.prescribed[k].is_some());
-    let loose = keep(&support, |k| state.prescribed[k].is_none());
+    let [held, loose] = state.explained(&support);
 
     let (nodes, dimension) = (&state.body.mesh.nodes, state.dimension());
     // The ground answers springs as it answers supports.
@@ -130,13 +129,6 @@ fn worst_node(values: &[f64], scale: f64, dimension: usize) -> WorstNode {
 /// Sum of nodal forces along the axis: those around it balance ring by ring.
 fn axial(forces: &[f64]) -> [f64; 3] {
     [0.0, forces.iter().skip(1).step_by(2).sum(), 0.0]
-}
-
-fn keep(values: &[f64], kept: impl Fn(usize) -> bool) -> Vec<f64> {
-    let entries = values.iter().enumerate();
-    entries
-        .map(|(k, &value)| if kept(k) { value } else { 0.0 })
-        .collect()
 }
 
 #[cfg(test)]
@@ -195,6 +187,8 @@ mod tests {
                     supports: vec![],
                     loads: vec![],
                     foundation: vec![],
+                    formulation: crate::body::Formulation::Standard,
+                    ties: Vec::new(),
                 },
                 stiffness: entries.to_csr(),
                 surface: ContactSurface {
@@ -213,6 +207,8 @@ mod tests {
                 stiffness: &self.stiffness,
                 load: &LOAD,
                 prescribed: &PRESCRIBED,
+                equations: &[],
+                values: &[],
                 surface: &self.surface,
                 problem: &self.problem,
                 reaction: &[reaction],
@@ -278,6 +274,8 @@ mod tests {
             stiffness: &stiffness,
             load: &[0.0; 4],
             prescribed: &[Some(0.0); 4],
+            equations: &[],
+            values: &[],
             surface: &surface,
             problem: &problem,
             reaction: &[-8.0, 2.0],

@@ -3,7 +3,7 @@
 use sprs::CsMat;
 
 use super::sides::{block, check_nodes, check_surface, global_force, shares};
-use crate::body::Body;
+use crate::body::{Body, Equation};
 use crate::condensation::Condensed;
 use crate::contact::ContactSurface;
 use crate::error::{Error, check_length};
@@ -22,6 +22,10 @@ pub struct BodyState<'a> {
     pub load: &'a [f64],
     /// Given displacement per unknown, in metre; `None` where free.
     pub prescribed: &'a [Option<f64>],
+    /// Equations between displacements (B14); none where supports give single displacements only.
+    pub equations: &'a [Equation],
+    /// Their right hand sides, in metre.
+    pub values: &'a [f64],
     /// Contacts of all bodies.
     pub surface: &'a ContactSurface,
     /// The condensed problem on that surface.
@@ -51,6 +55,8 @@ impl<'a> BodyState<'a> {
                 stiffness: operators.stiffness(),
                 load: operators.load(),
                 prescribed: operators.prescribed(),
+                equations: operators.equations().0,
+                values: operators.equations().1,
                 surface: condensed.surface(),
                 problem: condensed.problem(),
                 reaction,
@@ -69,6 +75,7 @@ impl BodyState<'_> {
         check_length("stiffness columns", size, self.stiffness.cols())?;
         check_length("load", size, self.load.len())?;
         check_length("prescribed", size, self.prescribed.len())?;
+        check_length("values", self.equations.len(), self.values.len())?;
         check_length("displacement", size, self.displacement.len())?;
         check_surface(self.surface, self.problem, "reaction", self.reaction)?;
         check_nodes(self.surface, self.index, self.body)
@@ -101,7 +108,19 @@ impl BodyState<'_> {
 
     /// The same where a support holds, and zero where equilibrium makes it so.
     pub(super) fn held_reactions(&self, contact: &[f64]) -> Vec<f64> {
-        self.reactions(contact, |unknown| self.prescribed[unknown].is_some())
+        let held = self.held();
+        self.reactions(contact, |unknown| held[unknown])
+    }
+
+    /// Whether a support or a tie acts, per unknown.
+    pub(super) fn held(&self) -> Vec<bool> {
+        let mut held: Vec<bool> = self.prescribed.iter().map(Option::is_some).collect();
+        for &(column, _) in self.equations.iter().flat_map(|equation| &equation.terms) {
+            held.get_mut(column)
+                .into_iter()
+                .for_each(|held| *held = true);
+        }
+        held
     }
 
     fn reactions(&self, contact: &[f64], of: impl Fn(usize) -> bool) -> Vec<f64> {
@@ -127,13 +146,5 @@ impl BodyState<'_> {
         let dimension = self.dimension();
         let unknowns = node * dimension..(node + 1) * dimension;
         unknowns.map(size).fold(0.0, f64::max)
-    }
-
-    /// Displacement minus the given one, zero where free, in metre.
-    pub(super) fn support_departure(&self) -> Vec<f64> {
-        let pairs = self.prescribed.iter().zip(self.displacement);
-        pairs
-            .map(|(given, u)| given.map_or(0.0, |given| u - given))
-            .collect()
     }
 }

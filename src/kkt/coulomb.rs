@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! (L2)  ‖t_T‖ ≤ −μ t_N                      the reaction stays inside the friction disc
-//! (L3)  −μ t_N ‖u_T‖ + t_T · u_T = 0        slip dissipates all the disc allows
+//! (L3)  −μ t_N ‖u_T‖ + t_T · u_T = 0        slip dissipates all the disc allows; and (L5)
 //! ```
 //!
 //! Inside the disc the left side of (L3) cannot be negative (Cauchy–Schwarz), and it
@@ -10,6 +10,7 @@
 //! so it serves as a residual without casework.
 
 use super::certificate::Worst;
+use super::law::JudgedLaw;
 use super::state::{ContactState, length};
 
 /// Worst violation of (L2) and (L3), in physical units.
@@ -27,9 +28,19 @@ pub(super) fn coulomb_residual(states: &[ContactState]) -> CoulombResidual {
     for (contact, state) in states.iter().enumerate() {
         // Not `friction_bound`: (L2) and (L3) hold the signed −μ t_N, so that a
         // reaction that pulls is charged here as well.
-        let bound = -state.friction * state.normal_reaction;
-        let excess = length(state.tangential_reaction) - bound;
-        let dissipation = bound * length(state.slip) + state.friction_work();
+        let bound = match state.law == JudgedLaw::COULOMB {
+            true => -state.friction * state.normal_reaction,
+            false => state.friction_bound(),
+        };
+        let force = length(state.law.rounded(state.tangential_reaction));
+        let (excess, dissipation) = match (state.law.sticks(), state.is_pressed()) {
+            (true, true) => (0.0, force * length(state.slip)),
+            (true, false) => (force, 0.0),
+            (false, _) => (
+                force - bound,
+                state.law.dissipation(bound, state.slip) + state.friction_work(),
+            ),
+        };
         worst.disc_excess.raise(excess, contact);
         worst.dissipation_defect.raise(dissipation.abs(), contact);
     }
@@ -48,6 +59,7 @@ mod tests {
             tangential_reaction,
             overlap: 0.0,
             slip,
+            law: JudgedLaw::COULOMB,
         }
     }
 

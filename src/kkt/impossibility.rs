@@ -9,7 +9,9 @@
 
 use faer::MatRef;
 
+use super::law::JudgedLaw;
 use crate::error::{Error, check_finite, check_length};
+use crate::problem::{ContactProblem, Floating};
 
 /// What a motion proves (K7).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,6 +66,43 @@ pub fn impossibility(
         resistance,
         contact,
         least_reaction,
+    })
+}
+
+/// Measures (K7) where contacts obey other laws than Coulomb's: what they dissipate at most on the motion, by bounds that
+/// need no pressure, is taken off the work of the load.
+///
+/// # Errors
+///
+/// Those of [`impossibility`].
+pub fn impossibility_under_laws(
+    problem: &ContactProblem,
+    floating: &Floating,
+    motion: &[f64],
+) -> Result<Impossibility, Error> {
+    let (offsets, friction, modes) = (problem.offsets(), problem.friction(), floating.modes());
+    let plain = impossibility(offsets, friction, modes, floating.load(), motion)?;
+    let (mut work, mut resistance, mut contact) = (plain.work, 0.0, plain.contact);
+    for (index, block) in problem.blocks().enumerate() {
+        let velocity = |row: usize| -> f64 {
+            let terms = motion.iter().enumerate();
+            terms.map(|(k, along)| modes[(row, k)] * along).sum()
+        };
+        let mut along = block.map(velocity);
+        let mut next = || along.next().unwrap_or(0.0);
+        let (normal, tangents) = (next(), [next(), next()]);
+        let law = JudgedLaw::new(problem.laws().map(|laws| &laws[index]));
+        let [spent, resists] = law.resistance(friction[index], normal, tangents);
+        work -= spent;
+        if resists > resistance {
+            (resistance, contact) = (resists, index);
+        }
+    }
+    Ok(Impossibility {
+        work,
+        resistance,
+        contact,
+        least_reaction: if work <= 0.0 { 0.0 } else { work / resistance },
     })
 }
 

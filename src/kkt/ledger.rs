@@ -8,8 +8,9 @@
 //!        obstacles   Σ ½ (t⁰ + t) · Δd          d: motion of a rigid other side (C14)
 //!        fits        Σ ½ (t⁰ + t)_N min(g₀, 0)   of the step that assembles the bodies
 //!                    Σ ½ (t⁰ + t)_N Δg₀          of later ones, where a gap is changed
-//!        elastic     Δ ½ u · K u
-//!        dissipation Σ ½ μ (|t_N⁰| + |t_N|) ‖Δu_T‖   over contacts that end pressed; never negative
+//!        elastic     Δ ½ u · K u + Δ ½ t · C t     C: compliance of the surfaces themselves
+//!        dissipation Σ ½ μ (|t_N⁰| + |t_N|) ‖Δu_T‖   over contacts that end pressed; never negative; of other laws
+//!                    ½ (s⁰ + s) ‖E⁻¹ Δu_T‖          (L5), over all
 //! (K10)  closure     −Σ ½ (t⁰ + t) · Δ(u_N, u_T) + fits − dissipation
 //! ```
 //!
@@ -25,9 +26,10 @@
 //! contacts that begin to slip, turn, open or close within the step, and falls with its size.
 
 use super::body_state::BodyState;
+use super::law::JudgedLaw;
 use super::sides::block;
 use crate::error::{Error, check_length};
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Law};
 
 /// Work and energy of a load step (K9), in joule.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -154,7 +156,7 @@ impl Ledger {
         let opened = contacts.opened.len();
         check_length("changed gaps", contacts.problem.contacts(), opened)?;
         let mut ledger = Self {
-            elastic: after.elastic - before.elastic,
+            elastic: after.elastic - before.elastic + contacts.layers(),
             ..Self::default()
         };
         for (before, after) in before.bodies.iter().zip(&after.bodies) {
@@ -237,10 +239,39 @@ impl ContactStep<'_> {
             .sum()
     }
 
+    /// Change of the energy that the surfaces' own compliance holds, in joule.
+    fn layers(&self) -> f64 {
+        if self.problem.laws().is_none() {
+            return 0.0;
+        }
+        let [before, after] = self.reaction;
+        let layers = self
+            .problem
+            .layers()
+            .into_iter()
+            .zip(before.iter().zip(after));
+        layers
+            .map(|(c, (before, after))| 0.5 * c * (after * after - before * before))
+            .sum()
+    }
+
+    fn dissipation_under(&self, contact: usize, friction: f64, law: JudgedLaw) -> f64 {
+        let radii = self
+            .reaction
+            .map(|t| law.radius(friction, block(self.problem, contact, t)[0]));
+        let slip = &block(self.problem, contact, self.displacement)[1..];
+        let along = |k: usize| slip.get(k).copied().unwrap_or(0.0);
+        law.dissipation(0.5 * (radii[0] + radii[1]), [along(0), along(1)])
+    }
+
     fn dissipation(&self) -> f64 {
         let friction = self.problem.friction().iter().enumerate();
+        let laws = self.problem.laws();
         friction
             .map(|(i, mu)| {
+                if let Some(laws) = laws.filter(|laws| laws[i] != Law::default()) {
+                    return self.dissipation_under(i, *mu, JudgedLaw::new(Some(&laws[i])));
+                }
                 let [before, after] = self.reaction.map(|t| block(self.problem, i, t)[0].min(0.0));
                 let slip = &block(self.problem, i, self.displacement)[1..];
                 let slip = slip.iter().fold(0.0, |size: f64, u| size.hypot(*u));

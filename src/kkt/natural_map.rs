@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! (K1)  r_N = t_N − min(0, t_N − ρ_N (u_N − g₀))     = max(t_N, ρ_N (u_N − g₀))
-//!       r_T = t_T − P_disc(t_T − ρ_T u_T)              disc of radius −μ min(t_N, 0)
+//!       r_T = t_T − P_disc(t_T − ρ_T u_T)              disc of radius −μ min(t_N, 0), or the set of (L5)
 //! ```
 //!
 //! A solution of (L1)–(L3) is a reaction that projection gives back after a step
@@ -32,18 +32,33 @@ impl Step {
 
     /// Reads the contact's state off the trial point of (K1).
     pub(super) fn status(&self, state: &ContactState) -> ContactStatus {
-        if state.normal_reaction >= self.normal * state.overlap {
+        if !self.is_pressed(state) {
             return ContactStatus::Open;
         }
-        let reach = state.friction_bound() * (1.0 + EDGE);
-        if state.friction == 0.0 || length(self.trial(state)) > reach {
+        if state.law.sticks() {
+            return ContactStatus::Stick;
+        }
+        let bound = state.friction_bound();
+        let smooth = state.friction == 0.0 && bound == 0.0;
+        if smooth || length(self.trial(state)) > bound * (1.0 + EDGE) {
             return ContactStatus::Slip;
         }
         ContactStatus::Stick
     }
 
+    /// Whether the trial point is in contact.
+    fn is_pressed(&self, state: &ContactState) -> bool {
+        let reaction = state.normal_reaction - state.law.tension();
+        let parted = reaction >= self.normal * state.overlap;
+        state.law.is_bilateral() || !parted
+    }
+
     fn normal_residual(&self, state: &ContactState) -> f64 {
-        let (reaction, step) = (state.normal_reaction, self.normal * state.overlap);
+        let step = self.normal * state.overlap;
+        let reaction = state.normal_reaction - state.law.tension();
+        if state.law.is_bilateral() {
+            return step;
+        }
         // `max` alone would return the other operand and hide a NaN.
         if reaction.is_nan() || step.is_nan() {
             return f64::NAN;
@@ -52,7 +67,12 @@ impl Step {
     }
 
     fn tangential_residual(&self, state: &ContactState) -> [f64; 2] {
-        let (trial, radius) = (self.trial(state), state.friction_bound());
+        let pressed = self.is_pressed(state);
+        let (trial, radius) = match (state.law.sticks(), pressed) {
+            (true, true) => return state.slip.map(|u| self.tangential * u),
+            (true, false) => return state.tangential_reaction,
+            (false, _) => (self.trial(state), state.friction_bound()),
+        };
         let distance = length(trial);
         if distance <= radius {
             // The projection does nothing; ρ u without the detour keeps its digits.
@@ -60,12 +80,14 @@ impl Step {
         }
         let [t_1, t_2] = state.tangential_reaction;
         let shrink = radius / distance;
-        [t_1 - shrink * trial[0], t_2 - shrink * trial[1]]
+        let held = state.law.unrounded(trial.map(|t| shrink * t));
+        [t_1 - held[0], t_2 - held[1]]
     }
 
-    /// `t_T − ρ_T u_T`, in newton.
+    /// `t_T − ρ_T u_T`, in newton, where the set is a disc.
     fn trial(&self, state: &ContactState) -> [f64; 2] {
-        let ([t_1, t_2], [u_1, u_2]) = (state.tangential_reaction, state.slip);
+        let [t_1, t_2] = state.law.rounded(state.tangential_reaction);
+        let [u_1, u_2] = state.law.squeezed(state.slip);
         [t_1 - self.tangential * u_1, t_2 - self.tangential * u_2]
     }
 }
@@ -97,6 +119,7 @@ pub(super) fn largest(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kkt::law::JudgedLaw;
 
     const STEP: Step = Step {
         normal: 10.0,
@@ -110,6 +133,7 @@ mod tests {
         tangential_reaction: [0.0; 2],
         overlap: 0.0,
         slip: [0.0; 2],
+        law: JudgedLaw::COULOMB,
     };
 
     #[test]

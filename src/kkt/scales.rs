@@ -1,7 +1,7 @@
 //! What a residual is compared with: steps and load scales, computed once per problem.
 //!
 //! ```text
-//! (K2)  w = û, plus −g₀ at contacts that interfere before loading (g₀ < 0)
+//! (K2)  w = û, plus −g₀ at contacts that interfere before loading (g₀ < 0) or never part
 //!       f = (w·w / w·G w) w          load force: the best multiple of w against w itself
 //! ```
 //!
@@ -41,7 +41,15 @@ impl Scales {
         let steps = steps(problem);
         let undone = undone_displacement(problem);
         let local = local_force(problem.offsets(), &undone, &steps);
-        let load = load_force(problem, &undone, &local);
+        let mut load = load_force(problem, &undone, &local);
+        // What glue bears is there without any load.
+        for (&normal, law) in problem
+            .normals()
+            .iter()
+            .zip(problem.laws().unwrap_or_default())
+        {
+            load[normal] = load[normal].abs().max(law.tension);
+        }
         Self {
             terms: norm(&local),
             steps,
@@ -97,8 +105,15 @@ fn steps(problem: &ContactProblem) -> Vec<Step> {
 /// `w` of (K2), in metre.
 fn undone_displacement(problem: &ContactProblem) -> Vec<f64> {
     let mut undone = problem.free_displacement().to_vec();
-    for (&normal, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
-        undone[normal] -= gap.min(0.0);
+    let laws = problem.laws();
+    for (contact, (&normal, gap)) in problem
+        .normals()
+        .iter()
+        .zip(problem.initial_gap())
+        .enumerate()
+    {
+        let bilateral = laws.is_some_and(|laws| laws[contact].bilateral);
+        undone[normal] -= if bilateral { *gap } else { gap.min(0.0) };
     }
     undone
 }

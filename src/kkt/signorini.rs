@@ -1,7 +1,7 @@
 //! How far a state is from satisfying Signorini's law.
 //!
 //! ```text
-//! (L1)  t_N ≤ 0,   u_N − g₀ ≤ 0,   t_N (u_N − g₀) = 0
+//! (L1)  t_N ≤ 0,   u_N − g₀ ≤ 0,   t_N (u_N − g₀) = 0          and (L4)
 //! ```
 
 use super::certificate::Worst;
@@ -22,9 +22,14 @@ pub(super) struct SignoriniResidual {
 pub(super) fn signorini_residual(states: &[ContactState]) -> SignoriniResidual {
     let mut worst = SignoriniResidual::default();
     for (contact, state) in states.iter().enumerate() {
-        let work = state.normal_reaction * state.overlap;
+        if state.law.is_bilateral() {
+            worst.penetration.raise(state.overlap.abs(), contact);
+            continue;
+        }
+        let tension = state.normal_reaction - state.law.tension();
+        let work = tension * state.overlap;
         worst.penetration.raise(state.overlap, contact);
-        worst.tension.raise(state.normal_reaction, contact);
+        worst.tension.raise(tension, contact);
         worst.complementarity.raise(work.abs(), contact);
     }
     worst

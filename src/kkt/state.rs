@@ -1,5 +1,6 @@
 //! One contact as the laws see it: its reaction and displacement, normal apart from tangent.
 
+use super::law::JudgedLaw;
 use crate::problem::ContactProblem;
 
 /// State of one contact; unused tangents are zero.
@@ -15,12 +16,19 @@ pub(super) struct ContactState {
     pub(super) overlap: f64,
     /// `u_T`, in metre.
     pub(super) slip: [f64; 2],
+    /// What it obeys beside Coulomb's law.
+    pub(super) law: JudgedLaw,
 }
 
 impl ContactState {
-    /// Radius of the friction disc, `−μ min(t_N, 0)`, in newton.
+    /// Radius of the friction disc, `−μ min(t_N, 0)` or that of (L5), in newton.
     pub(super) fn friction_bound(&self) -> f64 {
-        -self.friction * self.normal_reaction.min(0.0)
+        self.law.radius(self.friction, self.normal_reaction)
+    }
+
+    /// Whether it is in contact, as its reaction says: what sticks while it is pressed does so here.
+    pub(super) fn is_pressed(&self) -> bool {
+        self.law.is_bilateral() || self.normal_reaction < self.law.tension()
     }
 
     /// `t_T · u_T`, in joule.
@@ -42,9 +50,11 @@ pub(super) fn contact_states(
     beyond: &[f64],
 ) -> Vec<ContactState> {
     let blocks = problem.offsets().windows(2);
+    let laws = problem.laws();
     blocks
         .zip(problem.friction())
-        .map(|(ends, &friction)| {
+        .enumerate()
+        .map(|(contact, (ends, &friction))| {
             let (t, u) = (&reaction[ends[0]..ends[1]], &beyond[ends[0]..ends[1]]);
             ContactState {
                 friction,
@@ -52,6 +62,7 @@ pub(super) fn contact_states(
                 tangential_reaction: tangents(t),
                 overlap: u[0],
                 slip: tangents(u),
+                law: JudgedLaw::new(laws.map(|laws| &laws[contact])),
             }
         })
         .collect()
@@ -88,6 +99,7 @@ mod tests {
             tangential_reaction: [30.0, 31.0],
             overlap: 0.3,
             slip: [3.0, 3.1],
+            law: JudgedLaw::COULOMB,
         };
         assert_eq!(states[2], last);
     }

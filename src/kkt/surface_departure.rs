@@ -12,7 +12,8 @@ use crate::problem::ContactProblem;
 /// bodies (K5) and in the condensed problem, in metre; scaled by the largest displacement.
 ///
 /// `displacements` are per body and unknown (`node · dimension + axis`),
-/// `contact_displacement` per contact unknown as the judge computed it, both in metre. The
+/// `contact_displacement` per contact unknown as the judge computed it, `others` per contact what it holds of the
+/// motion of a rigid other side (none: nothing), all in metre. The
 /// certificate of (L1)–(L3) speaks of the condensed problem; this says whether it speaks
 /// of the bodies as well.
 ///
@@ -26,6 +27,7 @@ pub fn surface_departure(
     surface: &ContactSurface,
     problem: &ContactProblem,
     contact_displacement: &[f64],
+    others: &[[f64; 3]],
 ) -> Result<Worst, Error> {
     let place = "contact displacement";
     check_surface(surface, problem, place, contact_displacement)?;
@@ -42,7 +44,10 @@ pub fn surface_departure(
     let mut worst = Worst::default();
     for (i, contact) in surface.nodes.iter().enumerate() {
         let dimension = bodies[contact.body].mesh.dimension;
-        let relative = relative_displacement(contact, displacements, dimension);
+        let mut relative = relative_displacement(contact, displacements, dimension);
+        for (u, other) in relative.iter_mut().zip(others.get(i).into_iter().flatten()) {
+            *u -= other;
+        }
         let condensed = block(problem, i, contact_displacement);
         for (direction, condensed) in contact.frame.iter().zip(condensed) {
             let along: f64 = direction.iter().zip(relative).map(|(d, u)| d * u).sum();
@@ -61,7 +66,7 @@ mod tests {
     /// The lid goes down by 0.5 m and the box by 0.25 m along x: u = (0.5, −0.25).
     fn departure(displacements: &[Vec<f64>], condensed: [f64; 2]) -> Result<Worst, Error> {
         let (bodies, surface, problem) = lid_on_box(0.0);
-        surface_departure(&bodies, displacements, &surface, &problem, &condensed)
+        surface_departure(&bodies, displacements, &surface, &problem, &condensed, &[])
     }
 
     fn moved() -> [Vec<f64>; 2] {

@@ -4,31 +4,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::{Acting, Setup};
+use super::quantities::{Drive, Quantities, Variation};
+use super::{Acting, Setup, Solution};
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
-use crate::body::Body;
 use crate::condensation::{Driven, Superposition};
-use crate::contact::{ContactPair, Opposite};
-use crate::error::{Error, check_finite};
+use crate::contact::ContactPair;
+use crate::error::Error;
 use crate::report::{Cell, Table};
-use crate::scene::{Scene, driven, nearest};
-
-/// A quantity of a scene and the values that it takes.
-///
-/// | name | values |
-/// |---|---|
-/// | `friction`, `contacts[0].friction` | coefficient, of all contacts or of one |
-/// | `gap`, `contacts[0].gap` | added to the gap before loading, `gap` of the contact included, in metre |
-/// | `bodies[0].loads[1]`, `bodies[0].supports[0]` | factor |
-/// | `contacts[0].x`, `.y`, `.z` | how far the obstacle has moved, in metre |
-#[derive(Clone, Debug, PartialEq)]
-pub struct Variation {
-    /// Name of the quantity.
-    pub name: String,
-    /// Its values.
-    pub values: Vec<f64>,
-}
+use crate::scene::Scene;
 
 /// Most cases that start one from another, one after the other.
 const CHAIN: usize = 25;
@@ -79,44 +63,7 @@ pub fn cases_watched(
     done: impl Fn(usize, usize) + Sync,
 ) -> Result<Table, Error> {
     let at_scene = |error| scene.locate(error);
-    let mut mechanics = scene.mechanics()?;
-    if !mechanics.history.instants().is_empty() {
-        return Err(at_scene(Error::NotAccepted {
-            place: "steps".to_owned(),
-            found: "a load history".to_owned(),
-            accepted: "a scene without steps, of which `cases` solves many".to_owned(),
-        }));
-    }
-    let quantities = Quantities::new(&mechanics.bodies, &mechanics.contacts);
-    let drives = quantities.find_all(variations)?;
-    let friction: Vec<f64> = mechanics
-        .contacts
-        .iter()
-        .map(|pair| pair.friction)
-        .collect();
-    // Contacts hold tangents where any case has friction.
-    for (drive, variation) in drives.iter().zip(variations) {
-        if let Drive::Friction(contacts) = drive {
-            let most = variation.values.iter().copied().fold(0.0, f64::max);
-            contacts
-                .iter()
-                .for_each(|&k| mechanics.contacts[k].friction = most);
-        }
-    }
-    let mut setup = Setup::new(scene, mechanics).map_err(at_scene)?;
-    let driven = drives.iter().filter_map(Drive::driven);
-    let driven: Vec<Driven> = driven.collect();
-    let condensed = &mut setup.condensed;
-    let stated = Stated {
-        under: condensed
-            .superpose(&setup.bodies, &driven)
-            .map_err(at_scene)?,
-        names: variations.iter().map(|v| v.name.clone()).collect(),
-        friction,
-        gaps: condensed.problem().initial_gap().to_vec(),
-        drives,
-        setup,
-    };
+    let stated = Stated::new(scene, variations)?;
     let cases = combinations(variations);
     let (solved, all) = (AtomicUsize::new(0), cases.len());
     let row = variations.last().map_or(1, |last| last.values.len());
@@ -137,8 +84,28 @@ pub fn cases_watched(
     Ok(table)
 }
 
+/// Refuses other friction where a law has none, or several coefficients, to put it in place of.
+fn check_varied(name: &str, varied: &[usize], pairs: &[ContactPair]) -> Result<(), Error> {
+    let mut varied = varied.iter().filter_map(|&k| pairs.get(k));
+    let fixed = varied.find(|pair| {
+        let law = &pair.law;
+        law.places.is_some() || law.ellipse.is_some() || law.sticks || law.tension > 0.0
+    });
+    match fixed {
+        None => Ok(()),
+        Some(pair) => Err(Error::NotAccepted {
+            place: format!("{name} of {}", pair.place),
+            found: format!(
+                "the law `{}`",
+                pair.law.words(pair.friction).unwrap_or_default()
+            ),
+            accepted: "a law with one coefficient that is free of others".to_owned(),
+        }),
+    }
+}
+
 /// All combinations of values, the last varying fastest; one without values if nothing varies.
-fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
+pub(super) fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
     let mut cases = vec![Vec::new()];
     for variation in variations {
         let longer = cases.iter().flat_map(|case: &Vec<f64>| {
@@ -150,103 +117,8 @@ fn combinations(variations: &[Variation]) -> Vec<Vec<f64>> {
     cases
 }
 
-/// What a variation changes.
-#[derive(Clone, Debug, PartialEq)]
-enum Drive {
-    Friction(Vec<usize>),
-    Gap(Vec<usize>),
-    Factor(Driven),
-    Obstacle(usize, usize),
-}
-
-impl Drive {
-    fn driven(&self) -> Option<Driven> {
-        match self {
-            Self::Factor(driven) => Some(*driven),
-            _ => None,
-        }
-    }
-}
-
-/// Everything that can vary, by name.
-struct Quantities(Vec<(String, Drive)>);
-
-impl Quantities {
-    fn new(bodies: &[Body], pairs: &[ContactPair]) -> Self {
-        let all: Vec<usize> = (0..pairs.len()).collect();
-        let mut known = vec![
-            ("friction".to_owned(), Drive::Friction(all.clone())),
-            ("gap".to_owned(), Drive::Gap(all)),
-        ];
-        let driven = driven(bodies).into_iter();
-        known.extend(driven.map(|(place, driven)| (place, Drive::Factor(driven))));
-        let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
-        for (at, pair) in pairs.iter().enumerate() {
-            known.push((
-                format!("contacts[{at}].friction"),
-                Drive::Friction(vec![at]),
-            ));
-            known.push((format!("contacts[{at}].gap"), Drive::Gap(vec![at])));
-            if matches!(pair.opposite, Opposite::Obstacle(_)) {
-                let axes = ["x", "y", "z"].into_iter().take(dimension).enumerate();
-                known.extend(axes.map(|(axis, name)| {
-                    (format!("contacts[{at}].{name}"), Drive::Obstacle(at, axis))
-                }));
-            }
-        }
-        Self(known)
-    }
-
-    fn find_all(&self, variations: &[Variation]) -> Result<Vec<Drive>, Error> {
-        for (number, Variation { name, .. }) in variations.iter().enumerate() {
-            if variations[..number].iter().any(|other| other.name == *name) {
-                return Err(Error::NotAccepted {
-                    place: "vary".to_owned(),
-                    found: format!("`{name}` twice"),
-                    accepted: "every quantity once".to_owned(),
-                });
-            }
-        }
-        let found = variations.iter().map(|variation| self.find(variation));
-        found.collect()
-    }
-
-    fn nearest(&self, name: &str) -> Option<String> {
-        let known = self.0.iter().map(|(name, _)| name.as_str());
-        nearest(name, known).map(str::to_owned)
-    }
-
-    fn find(&self, variation: &Variation) -> Result<Drive, Error> {
-        let name = &variation.name;
-        let Some((_, drive)) = self.0.iter().find(|(known, _)| known == name) else {
-            return Err(Error::UnknownName {
-                place: "vary".to_owned(),
-                what: "quantity",
-                name: name.clone(),
-                nearest: self.nearest(name),
-                known: self.0.iter().map(|(name, _)| name.clone()).collect(),
-            });
-        };
-        if variation.values.is_empty() {
-            return Err(Error::Empty {
-                place: name.clone(),
-            });
-        }
-        check_finite(name, &variation.values)?;
-        let negative = variation.values.iter().copied().find(|value| *value < 0.0);
-        match (drive, negative) {
-            (Drive::Friction(_), Some(value)) => Err(Error::OutOfRange {
-                place: name.clone(),
-                value,
-                accepted: "friction >= 0",
-            }),
-            _ => Ok(drive.clone()),
-        }
-    }
-}
-
 /// What the scene states, before any case.
-struct Stated {
+pub(super) struct Stated {
     setup: Setup,
     under: Superposition,
     names: Vec<String>,
@@ -256,25 +128,85 @@ struct Stated {
 }
 
 impl Stated {
+    /// Factorises the bodies; each of the variations can then take any of its values.
+    pub(super) fn new(scene: &Scene, variations: &[Variation]) -> Result<Self, Error> {
+        let at_scene = |error| scene.locate(error);
+        let mut mechanics = scene.mechanics()?;
+        if !mechanics.history.instants().is_empty() {
+            return Err(at_scene(Error::NotAccepted {
+                place: "steps".to_owned(),
+                found: "a load history".to_owned(),
+                accepted: "a scene without steps, which is solved many times".to_owned(),
+            }));
+        }
+        let quantities = Quantities::new(
+            &mechanics.bodies,
+            &mechanics.contacts,
+            &mechanics.rigid_bodies,
+        );
+        let drives = quantities.find_all(variations)?;
+        let friction: Vec<f64> = mechanics
+            .contacts
+            .iter()
+            .map(|pair| pair.friction)
+            .collect();
+        // Contacts hold tangents where any case has friction.
+        for (drive, variation) in drives.iter().zip(variations) {
+            if let Drive::Friction(contacts) = drive {
+                check_varied(&variation.name, contacts, &mechanics.contacts)?;
+                let most = variation.values.iter().copied().fold(0.0, f64::max);
+                contacts
+                    .iter()
+                    .for_each(|&k| mechanics.contacts[k].friction = most);
+            }
+        }
+        let mut setup = Setup::new(scene, mechanics).map_err(at_scene)?;
+        let driven = drives.iter().filter_map(Drive::driven);
+        let driven: Vec<Driven> = driven.collect();
+        let condensed = &mut setup.condensed;
+        Ok(Self {
+            under: condensed
+                .superpose(&setup.bodies, &driven)
+                .map_err(at_scene)?,
+            names: variations.iter().map(|v| v.name.clone()).collect(),
+            friction,
+            gaps: condensed.problem().initial_gap().to_vec(),
+            drives,
+            setup,
+        })
+    }
+
+    /// One case, from a neighbour where there is one.
+    pub(super) fn solved(&self, values: &[f64], near: Option<&Outcome>) -> Result<Solution, Error> {
+        let setup = self.put(values)?;
+        let (problem, settings) = (setup.condensed.problem(), &setup.settings);
+        let outcome = match near {
+            Some(near) => alternation::solve_near(problem, settings, near)?,
+            None => alternation::solve(problem, settings)?,
+        };
+        setup.recover(outcome)
+    }
+
     /// Solves cases that differ little, each from the solution of the one before.
     fn solve(&self, chain: &[Vec<f64>], mut done: impl FnMut()) -> Result<Table, Error> {
         let mut table = Table::default();
         let mut near: Option<Outcome> = None;
         for values in chain {
-            let setup = self.put(values)?;
-            let (problem, settings) = (setup.condensed.problem(), &setup.settings);
-            let outcome = match &near {
-                Some(near) => alternation::solve_near(problem, settings, near)?,
-                None => alternation::solve(problem, settings)?,
-            };
-            near = (outcome.status == Status::Certified).then(|| outcome.clone());
-            let report = setup.recover(outcome)?.report()?;
+            let solution = self.solved(values, near.as_ref())?;
+            let report = solution.report()?;
+            near = (solution.status() == Status::Certified).then_some(solution.outcome);
             let values = values.iter().map(|&value| Cell::Number(value));
             let given = self.names.iter().cloned().zip(values);
             table.push(&given.collect::<Vec<_>>(), &report);
             done();
         }
         Ok(table)
+    }
+
+    /// Whether a pair's friction is one number, which may vary.
+    fn varies(&self, pair: usize) -> bool {
+        let law = &self.setup.pairs[pair].law;
+        law.places.is_none() && law.ellipse.is_none()
     }
 
     /// The bodies under the values of a case.
@@ -292,9 +224,12 @@ impl Stated {
         }
         let mut setup = self.setup.clone();
         let contacts = &setup.condensed.surface().nodes;
-        let friction = contacts
-            .iter()
-            .map(|contact| friction[contact.pair])
+        let held = setup.condensed.problem().friction().iter().zip(contacts);
+        let friction = held
+            .map(|(held, contact)| match self.varies(contact.pair) {
+                true => friction[contact.pair],
+                false => *held,
+            })
             .collect();
         let parted = contacts.iter().zip(&self.gaps);
         let parted_gaps = parted
@@ -305,7 +240,7 @@ impl Stated {
         let condensed = &mut setup.condensed;
         condensed.act(&self.under, &factors, &obstacles, &slip)?;
         let driven: Vec<Driven> = self.drives.iter().filter_map(Drive::driven).collect();
-        setup.stress_under(&self.setup.bodies, &driven, &factors);
+        setup.stress_under(&driven, &factors);
         setup.acting = Acting {
             obstacles,
             openings: self

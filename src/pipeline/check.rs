@@ -3,7 +3,7 @@
 
 use crate::body;
 use crate::body::Support;
-use crate::condensation::{Driven, RigidBodies, dense_bytes};
+use crate::condensation::{Driven, Estimate, RigidBodies, dense_bytes, estimate};
 use crate::contact::ContactSurface;
 use crate::error::Error;
 use crate::scene::{LoadHistory, Mechanics, Scene};
@@ -19,6 +19,8 @@ pub struct Checked {
     pub free_modes: Vec<usize>,
     /// What the condensed problem takes of the memory, in bytes.
     pub dense_bytes: usize,
+    /// What the solve will take, by the pattern of the factors.
+    pub estimate: Estimate,
 }
 
 /// Reads a scene and its meshes and finds its contacts.
@@ -34,7 +36,7 @@ pub fn check(scene: &Scene) -> Result<Checked, Error> {
 
 fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
     let bodies = &mechanics.bodies;
-    let rigid = RigidBodies::new(bodies, &mechanics.contacts)?;
+    let rigid = RigidBodies::new(bodies, &mechanics.contacts, &mechanics.rigid_bodies)?;
     let dense_bytes = dense_bytes(rigid.surface())?;
     check_supports(&mechanics)?;
     let free_modes = bodies.iter().map(|body| {
@@ -43,8 +45,9 @@ fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
     });
     Ok(Checked {
         free_modes: free_modes.collect::<Result<_, Error>>()?,
-        surface: rigid.into_surface(),
         dense_bytes,
+        estimate: estimate(bodies, rigid.surface())?,
+        surface: rigid.into_surface(),
         mechanics,
     })
 }
@@ -53,10 +56,16 @@ fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
 fn check_supports(mechanics: &Mechanics) -> Result<(), Error> {
     let history = &mechanics.history;
     for (index, body) in mechanics.bodies.iter().enumerate() {
-        if body.supports.len() < 2 || !moves(history, index) {
+        let stated = body.supports.len() + body.ties.len();
+        if stated < 2 || !moves(history, index) {
             continue;
         }
+        let tied = body::dependence(body)?;
         for &at in history.instants() {
+            if let Some(tied) = &tied {
+                tied.check(&tied.values(|by| history.factor(index, by, at)))?;
+                continue;
+            }
             let supports = supports_at(history, at, index, &body.supports);
             let (axes, nodes) = (body.mesh.dimension, body.mesh.nodes.len());
             body::prescribed_by(&supports, axes, nodes)?;
@@ -69,7 +78,10 @@ fn check_supports(mechanics: &Mechanics) -> Result<(), Error> {
 fn moves(history: &LoadHistory, of: usize) -> bool {
     let driven = history.driven();
     let mut supports = driven.iter();
-    supports.any(|driven| matches!(driven, Driven::Support { body, .. } if *body == of))
+    supports.any(|driven| match driven {
+        Driven::Support { body, .. } | Driven::Motion { body, .. } => *body == of,
+        Driven::Load { .. } | Driven::Rigid { .. } => false,
+    })
 }
 
 fn supports_at(history: &LoadHistory, at: f64, of: usize, stated: &[Support]) -> Vec<Support> {

@@ -3,6 +3,7 @@
 use super::Setup;
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
+use crate::condensation::Condensed;
 use crate::error::Error;
 
 /// Part of the largest displacement by which contacts of recovered bodies may move otherwise than the contact
@@ -26,7 +27,8 @@ impl Setup {
         }
         let mut before = f64::INFINITY;
         for _ in 0..ROUNDS {
-            let ahead = largest(&condensed.ahead(&outcome.verdict.displacement, &displacements)?);
+            let said = of_bodies(condensed, &outcome);
+            let ahead = largest(&condensed.ahead(&said, &displacements)?);
             let settled = ahead <= AHEAD * largest(displacements.iter().flatten());
             // What no longer gets less is rounding of û and t.
             if settled || ahead > 0.5 * before || outcome.status != Status::Certified {
@@ -34,7 +36,7 @@ impl Setup {
             }
             before = ahead;
             condensed.refine(&outcome.reaction, &mut displacements)?;
-            condensed.shift(&condensed.ahead(&outcome.verdict.displacement, &displacements)?)?;
+            condensed.shift(&condensed.ahead(&said, &displacements)?)?;
             let again = alternation::solve_near(condensed.problem(), &self.settings, &outcome)?;
             outcome = again.after(outcome);
             displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
@@ -42,6 +44,14 @@ impl Setup {
         }
         Ok((outcome, displacements))
     }
+}
+
+/// What the contact problem says of the bodies, in metre per unknown.
+fn of_bodies(condensed: &Condensed, outcome: &Outcome) -> Vec<f64> {
+    let displacement = &outcome.verdict.displacement;
+    condensed
+        .problem()
+        .displacement_of_bodies(displacement, &outcome.reaction)
 }
 
 fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {

@@ -1,13 +1,16 @@
-//! The limit pipeline: scene → rigid bodies → cone programs → judge.
+//! The limit pipeline: scene → rigid bodies → cone programs → judge; scene → its state → elastic limits.
 
+use super::{Setup, solve_steps};
+use crate::alternation::{Outcome, Status};
 use crate::body::{Body, Load};
-use crate::condensation::RigidBodies;
-use crate::contact::ContactPair;
+use crate::condensation::{Driven, RigidBodies, Superposition};
+use crate::contact::{ContactPair, RigidBody};
 use crate::error::Error;
 use crate::limit::{LeastFriction, Limit, RigidContacts};
-use crate::report::{Beyond, Limits, LoadLimit};
-use crate::scene::{Mechanics, Scene};
-use crate::{body, kkt, report};
+use crate::report::{Beyond, Limits, LoadLimit, ReportedElasticLimit};
+use crate::scene::{LoadHistory, Mechanics, Scene};
+use crate::trust::{ElasticLimit, LimitStart, elastic_limit};
+use crate::{body, condensation, kkt, report};
 
 /// The judge believes reactions that leave less than this open, relative to them.
 const HOLDS: f64 = 1e-9;
@@ -18,97 +21,200 @@ const BEYOND: (f64, f64) = (1e-6, 1e3);
 /// By what factor each load of a scene can grow, the others held, before nothing holds the bodies
 /// that supports leave free; and how much friction the loads take.
 ///
-/// Bodies count as rigid here: no stiffness is factorised. Contacts that are open before
-/// loading count as if they could close.
+/// Two answers per load: of rigid bodies, an upper bound that needs no stiffness, and of the elastic ones, between
+/// a factor whose state is certified and one at which nothing holds. Only elastic bodies say how hard an overlap presses.
+/// A scene with load steps is solved to its end, and grows from there, with the slip so far.
 ///
 /// ```
-/// use dpana::report::Beyond;
 /// use dpana::{Scene, limit};
 ///
 /// # fn main() -> Result<(), dpana::Error> {
-/// // A loose block of weight 10 N on a floor with μ = 0.3, pushed by 1 N.
+/// // A block of 1 m between plates that squeeze it by 1 mm, pulled out with 1 N: rigid plates would squeeze without
+/// // limit, the block pushes back with E · 1e-3 = 1 N/m on its 2 m. Friction of 0.3 on both sides holds 1.2 N.
 /// let scene = r#"{
 ///     "bodies": [{ "mesh": { "rectangle": { "x": [0, 2], "y": [0, 1], "cells": [4, 2] } },
 ///                  "model": "plane_strain",
-///                  "materials": [{ "young": 1000, "poisson": 0.3 }],
-///                  "loads": [{ "body_force": [0, -5] }, { "group": "left", "traction": [1, 0] }] }],
+///                  "materials": [{ "young": 1000, "poisson": 0 }],
+///                  "loads": [{ "body_force": [0.5, 0] }] }],
 ///     "contacts": [{ "group": "bottom", "friction": 0.3,
-///                    "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } }] }"#;
+///                    "obstacle": { "plane": { "point": [0, 0], "normal": [0, 1] } } },
+///                  { "group": "top", "friction": 0.3,
+///                    "obstacle": { "plane": { "point": [0, 0.999], "normal": [0, -1] } } }] }"#;
 /// let limits = limit(&Scene::from_json(scene, "")?)?;
-/// let Beyond::Grows { factor, certified, .. } = limits.loads[1].beyond else {
-///     panic!("friction holds no load without end");
-/// };
-/// assert!(certified && (factor - 3.0).abs() < 1e-6);
+/// let elastic = limits.loads[0].elastic.as_ref().unwrap();
+/// let (held, fails) = (elastic.held.unwrap(), elastic.fails.unwrap());
+/// assert!(held < 1.2 && 1.2 < fails && fails - held < 1e-5);
 /// # Ok(())
 /// # }
 /// ```
 ///
 /// # Errors
 ///
-/// Whatever is wrong with the scene, a scene with load steps, and one whose supports hold every body.
+/// Whatever is wrong with the scene, a history that ends without a certified state, and a scene whose supports hold
+/// every body.
 pub fn limit(scene: &Scene) -> Result<Limits, Error> {
-    let Mechanics {
-        bodies,
-        contacts: pairs,
-        history,
-        ..
-    } = scene.mechanics()?;
-    if !history.instants().is_empty() {
-        return Err(scene.locate(Error::NotAccepted {
-            place: "steps".to_owned(),
-            found: "a load history".to_owned(),
-            accepted: "a scene without steps, whose loads act as they stand".to_owned(),
-        }));
-    }
-    limits(&scene.title, &bodies, &pairs).map_err(|error| scene.locate(error))
+    limits(scene, true)
 }
 
-fn limits(title: &str, bodies: &[Body], pairs: &[ContactPair]) -> Result<Limits, Error> {
-    let rigid = RigidBodies::new(bodies, pairs)?;
-    let modes = rigid.modes();
-    if modes.ncols() == 0 {
-        return Err(Error::NotAccepted {
-            place: "bodies".to_owned(),
-            found: "supports that hold every body".to_owned(),
-            accepted: "a body that only contact holds, as supports carry any load".to_owned(),
-        });
-    }
-    let nodes = &rigid.surface().nodes;
-    let tangents: Vec<usize> = nodes.iter().map(|contact| contact.tangents).collect();
-    let friction = nodes.iter().map(|contact| pairs[contact.pair].friction);
-    let case = Case {
-        bodies,
-        contacts: RigidContacts::new(&tangents, friction.collect(), modes)?,
-        rigid,
+/// The same, of rigid bodies alone: no stiffness is factorised, and no history solved, whose loads act as at its end.
+///
+/// Contacts that are open before loading count as if they could close.
+///
+/// # Errors
+///
+/// Whatever is wrong with the scene, and one whose supports hold every body.
+pub fn rigid_limit(scene: &Scene) -> Result<Limits, Error> {
+    limits(scene, false)
+}
+
+fn limits(scene: &Scene, elastic: bool) -> Result<Limits, Error> {
+    let at_scene = |error| scene.locate(error);
+    let mut mechanics = scene.mechanics()?;
+    let history = std::mem::take(&mut mechanics.history);
+    let ends = Ends::of(&history);
+    let bodies = ends.bodies(&mechanics.bodies);
+    let pairs = mechanics.contacts.clone();
+    let rigid_bodies = mechanics.rigid_bodies.clone();
+    let case = Case::new(&bodies, &pairs, &rigid_bodies).map_err(at_scene)?;
+    let total = case.total();
+    let grown = case.grown();
+    let mut elastic = match elastic && !grown.is_empty() {
+        true => Some(Elastic::new(scene, mechanics, ends, &grown).map_err(at_scene)?),
+        false => None,
     };
-    let forces: Vec<_> = bodies.iter().map(body::load_vector).collect();
-    let total = case.rigid.load(&forces);
     let mut loads = Vec::new();
-    for (index, body) in bodies.iter().enumerate() {
-        for (number, load) in body.loads.iter().enumerate() {
-            // Heat and initial stress are in equilibrium with themselves.
-            if load.stresses() {
-                continue;
-            }
-            let growing = case.alone(index, load);
-            if growing.iter().any(|e| *e != 0.0) {
-                let fixed: Vec<f64> = total.iter().zip(&growing).map(|(t, g)| t - g).collect();
-                let beyond = case.beyond(&fixed, &growing)?;
-                loads.push(LoadLimit {
-                    place: format!("bodies[{index}].loads[{number}]"),
-                    body: body.name.clone(),
-                    kind: kind(load),
-                    beyond,
-                });
-            }
+    for grown in &grown {
+        let limit = case.limit_of(grown, &total, elastic.as_mut());
+        loads.push(limit.map_err(at_scene)?);
+    }
+    Ok(Limits {
+        title: scene.title.clone(),
+        loads,
+        least_friction: case.least_friction(&total, &pairs).map_err(at_scene)?,
+    })
+}
+
+/// What drives a scene at its end.
+struct Ends {
+    driven: Vec<Driven>,
+    factors: Vec<f64>,
+}
+
+impl Ends {
+    /// Of a history; of a scene without one, whose loads act as they stand, nothing.
+    fn of(history: &LoadHistory) -> Self {
+        let last = history.instants().last();
+        Self {
+            driven: history.driven(),
+            factors: last.map_or_else(Vec::new, |&last| history.factors(last)),
         }
     }
-    let least_friction = case.least_friction(&total, pairs)?;
-    Ok(Limits {
-        title: title.to_owned(),
-        loads,
-        least_friction,
-    })
+
+    /// Bodies under the loads that act at the end.
+    fn bodies(&self, stated: &[Body]) -> Vec<Body> {
+        let mut bodies = stated.to_vec();
+        for (driven, factor) in self.driven.iter().zip(&self.factors) {
+            if let Driven::Load { body, index } = *driven {
+                let load = &mut bodies[body].loads[index];
+                *load = load.scaled(*factor);
+            }
+        }
+        bodies
+    }
+
+    /// The place of a load among what drives the scene.
+    fn place(&mut self, driven: Driven) -> usize {
+        let known = self.driven.iter().position(|known| *known == driven);
+        known.unwrap_or_else(|| {
+            self.driven.push(driven);
+            self.factors.push(1.0);
+            self.driven.len() - 1
+        })
+    }
+}
+
+/// A load that the free motions feel, and that grows alone.
+struct Grown {
+    driven: Driven,
+    place: String,
+    body: String,
+    kind: &'static str,
+    /// Its work on every free mode.
+    work: Vec<f64>,
+}
+
+/// The elastic bodies in the scene's last state.
+struct Elastic {
+    setup: Setup,
+    under: Superposition,
+    ends: Ends,
+    slip: Vec<f64>,
+    /// Of a history.
+    last: Option<Outcome>,
+}
+
+impl Elastic {
+    fn new(
+        scene: &Scene,
+        mechanics: Mechanics,
+        mut ends: Ends,
+        grown: &[Grown],
+    ) -> Result<Self, Error> {
+        let stated = mechanics.bodies.clone();
+        let steps = !ends.factors.is_empty();
+        for load in grown {
+            ends.place(load.driven);
+        }
+        let (mut setup, slip, last) = match steps {
+            true => {
+                let solution = solve_steps(scene, None, |_| Ok(()))?;
+                let step = solution
+                    .step()
+                    .filter(|_| solution.status() == Status::Certified);
+                let step = step.ok_or_else(|| Error::NotAccepted {
+                    place: "steps".to_owned(),
+                    found: "a history that ends without a certified state".to_owned(),
+                    accepted: "one that is solved to its end, from where a load can grow"
+                        .to_owned(),
+                })?;
+                let slip = step.slip().to_vec();
+                (solution.setup.clone(), slip, Some(solution.outcome.clone()))
+            }
+            false => {
+                let setup = Setup::new(scene, mechanics)?;
+                let slip = vec![0.0; setup.condensed.problem().unknowns()];
+                (setup, slip, None)
+            }
+        };
+        Ok(Self {
+            under: setup.condensed.superpose(&stated, &ends.driven)?,
+            setup,
+            ends,
+            slip,
+            last,
+        })
+    }
+
+    /// Follows a load to its limit.
+    fn limit(&mut self, load: &Grown, guess: Option<f64>) -> Result<ElasticLimit, Error> {
+        let place = self.ends.place(load.driven);
+        let condensed = &mut self.setup.condensed;
+        let mut obstacles = self.setup.acting.obstacles.clone();
+        obstacles.resize(self.setup.pairs.len(), [0.0; 3]);
+        let mut with = |part: f64| {
+            let mut factors = self.ends.factors.clone();
+            factors[place] *= part;
+            condensed.act(&self.under, &factors, &obstacles, &self.slip)?;
+            Ok(condensed.problem().clone())
+        };
+        let (without, stated) = (with(0.0)?, with(1.0)?);
+        let state = self.last.as_ref();
+        let start = LimitStart {
+            guess,
+            state: state.map(|last| (&last.reaction[..], &last.motion[..])),
+        };
+        elastic_limit(&without, &stated, &self.setup.settings, start)
+    }
 }
 
 fn kind(load: &Load) -> &'static str {
@@ -119,7 +225,7 @@ fn kind(load: &Load) -> &'static str {
         Load::PointForce { .. } => "point_force",
         Load::VaryingPressure { .. } => "pressure",
         Load::VaryingTraction { .. } => "traction",
-        Load::Spread { .. } => "force",
+        Load::Spread { .. } | Load::AtReference { .. } => "force",
         Load::Gravity { .. } => "gravity",
         Load::Centrifugal { .. } => "centrifugal",
         Load::Temperature { .. } => "temperature",
@@ -130,11 +236,132 @@ fn kind(load: &Load) -> &'static str {
 /// The scene as rigid bodies.
 struct Case<'a> {
     bodies: &'a [Body],
+    rigid_bodies: &'a [RigidBody],
     rigid: RigidBodies,
     contacts: RigidContacts,
 }
 
-impl Case<'_> {
+impl<'a> Case<'a> {
+    fn new(
+        bodies: &'a [Body],
+        pairs: &[ContactPair],
+        rigid_bodies: &'a [RigidBody],
+    ) -> Result<Self, Error> {
+        if let Some(pair) = pairs.iter().find(|pair| !pair.law.is_coulomb()) {
+            return Err(Error::NotAccepted {
+                place: format!("{}.law", pair.place),
+                found: pair.law.words(pair.friction).unwrap_or_default(),
+                accepted: "Coulomb's law, whose cone limit analysis knows; `dpana solve` holds bodies by any law"
+                    .to_owned(),
+            });
+        }
+        let rigid = RigidBodies::new(bodies, pairs, rigid_bodies)?;
+        let modes = rigid.modes();
+        if modes.ncols() == 0 {
+            return Err(Error::NotAccepted {
+                place: "bodies".to_owned(),
+                found: "supports that hold every body".to_owned(),
+                accepted: "a body that only contact holds, as supports carry any load".to_owned(),
+            });
+        }
+        let nodes = &rigid.surface().nodes;
+        let tangents: Vec<usize> = nodes.iter().map(|contact| contact.tangents).collect();
+        let friction = condensation::friction(rigid.surface(), pairs);
+        Ok(Self {
+            bodies,
+            rigid_bodies,
+            contacts: RigidContacts::new(&tangents, friction, modes)?,
+            rigid,
+        })
+    }
+
+    /// Number of each rigid body and free component.
+    fn on_rigid(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let bodies = self.rigid_bodies.iter().enumerate();
+        bodies.flat_map(|(body, of)| of.free().map(move |component| (body, component)))
+    }
+
+    /// Work of all loads on every free mode.
+    fn total(&self) -> Vec<f64> {
+        let forces: Vec<_> = self.bodies.iter().map(body::load_vector).collect();
+        let mut total = self.rigid.load(&forces);
+        for (body, component) in self.on_rigid() {
+            let more = self.rigid.rigid_load(body, component);
+            total.iter_mut().zip(more).for_each(|(e, more)| *e += more);
+        }
+        total
+    }
+
+    /// Every load that the free motions feel.
+    fn grown(&self) -> Vec<Grown> {
+        let mut grown = Vec::new();
+        for (index, body) in self.bodies.iter().enumerate() {
+            let loads = body.loads.iter().enumerate();
+            // Heat and initial stress are in equilibrium with themselves.
+            let loads = loads.filter(|(_, load)| !load.stresses());
+            grown.extend(loads.map(|(number, load)| Grown {
+                driven: Driven::Load {
+                    body: index,
+                    index: number,
+                },
+                place: format!("bodies[{index}].loads[{number}]"),
+                body: body.name.clone(),
+                kind: kind(load),
+                work: self.alone(index, load),
+            }));
+        }
+        let dimension = self.bodies.first().map_or(3, |body| body.mesh.dimension);
+        grown.extend(self.on_rigid().map(|(index, component)| {
+            let body = &self.rigid_bodies[index];
+            Grown {
+                driven: Driven::Rigid {
+                    body: index,
+                    component,
+                },
+                place: body.component_place(component, dimension),
+                body: body.name.clone(),
+                kind: if component < 3 { "force" } else { "moment" },
+                work: self.rigid.rigid_load(index, component),
+            }
+        }));
+        grown.retain(|load| load.work.iter().any(|e| *e != 0.0));
+        grown
+    }
+
+    /// Both limits of a load.
+    fn limit_of(
+        &self,
+        grown: &Grown,
+        total: &[f64],
+        elastic: Option<&mut Elastic>,
+    ) -> Result<LoadLimit, Error> {
+        let fixed: Vec<f64> = total.iter().zip(&grown.work).map(|(t, g)| t - g).collect();
+        let beyond = self.beyond(&fixed, &grown.work)?;
+        let guess = match &beyond {
+            Beyond::Grows { factor, .. } => Some(*factor),
+            _ => None,
+        };
+        let found = elastic
+            .map(|elastic| elastic.limit(grown, guess))
+            .transpose()?;
+        Ok(LoadLimit {
+            place: grown.place.clone(),
+            body: grown.body.clone(),
+            kind: grown.kind,
+            beyond,
+            elastic: found.map(|found| self.reported(found)),
+        })
+    }
+
+    fn reported(&self, found: ElasticLimit) -> ReportedElasticLimit {
+        let (fails, failure) = found.fails.unzip();
+        ReportedElasticLimit {
+            held: found.held,
+            fails,
+            motions: failure.map_or_else(Vec::new, |failure| self.motions(&failure.motion)),
+        }
+    }
+
     /// Work of one load alone on every free mode.
     fn alone(&self, index: usize, load: &Load) -> Vec<f64> {
         let forces = self.bodies.iter().enumerate().map(|(k, body)| {
@@ -185,7 +412,8 @@ impl Case<'_> {
                 multiple, motion, ..
             } => {
                 let first = pairs.first().map_or(0.0, |pair| pair.friction);
-                let uniform = pairs.iter().all(|pair| pair.friction == first);
+                let mut one = pairs.iter();
+                let uniform = one.all(|pair| pair.friction == first && pair.law.places.is_none());
                 report::ReportedLeastFriction::Multiple {
                     multiple,
                     coefficient: uniform.then_some(multiple * first),
@@ -205,7 +433,11 @@ impl Case<'_> {
         let apparent = self.contacts.failure(motion);
         let parts = self.rigid.motions(&apparent.motion);
         let opens_only = apparent.sliding.is_empty() && !apparent.opening.is_empty();
-        report::motions(self.bodies, &parts, !opens_only)
+        report::motions(
+            &report::names(self.bodies, self.rigid_bodies),
+            &parts,
+            !opens_only,
+        )
     }
 
     fn holds(&self, load: &[f64], reaction: &[f64]) -> Result<bool, Error> {

@@ -5,7 +5,7 @@ use crate::body::Body;
 use crate::condensation::Condensed;
 use crate::error::Error;
 use crate::kkt;
-use crate::kkt::{Balance, BodyState, PairFit, SceneGeometry, Surroundings, Worst};
+use crate::kkt::{Balance, BodyState, PairFit, RigidBalance, SceneGeometry, Surroundings, Worst};
 
 /// Part of the largest displacement by which contacts of recovered bodies may move otherwise than the
 /// condensed problem says.
@@ -18,7 +18,7 @@ const ROUNDED: f64 = 16.0 * f64::EPSILON;
 /// What acts on the contact pairs beside loads and supports.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Acting {
-    /// Motion of the obstacle per pair, in metre; missing ones stand still.
+    /// Motion of the obstacle per pair, in metre; missing ones stand still, rigid bodies move their own.
     pub obstacles: Vec<[f64; 3]>,
     /// What is added to all gaps of a pair, in metre; missing ones are zero.
     pub openings: Vec<f64>,
@@ -29,6 +29,8 @@ pub struct Acting {
 pub struct Measured {
     /// Equilibrium of each whole body.
     pub balances: Vec<Balance>,
+    /// Equilibrium of each rigid body.
+    pub rigid: Vec<RigidBalance>,
     /// How far the bodies are from the condensed problem at the contacts.
     pub departure: Worst,
     /// Whether that is round-off.
@@ -52,25 +54,34 @@ impl Measured {
     ) -> Result<Self, Error> {
         let states = BodyState::of_bodies(bodies, condensed, &outcome.reaction, displacements);
         let problem = condensed.problem();
+        let said = problem.displacement_of_bodies(&outcome.verdict.displacement, &outcome.reaction);
         let departure = kkt::surface_departure(
             bodies,
             displacements,
             condensed.surface(),
             problem,
-            &problem.total_displacement(&outcome.verdict.displacement),
+            &problem.total_displacement(&said),
+            &condensed.found_sides(&outcome.motion),
         )?;
+        let rigid = condensed
+            .rigid_bodies()
+            .iter()
+            .zip(condensed.rigid_forces());
         let free = problem.free_displacement().iter();
         let free = free.fold(0.0, |most: f64, u| most.max(u.abs()));
         let rounding = geometry.rounding().max(ROUNDED * free);
         let follows = departure.scaled <= FOLLOWED || departure.value <= rounding;
         Ok(Self {
+            rigid: rigid
+                .map(|(body, given)| kkt::rigid_balance(&states, body, given))
+                .collect::<Result<_, _>>()?,
             balances: states.iter().map(kkt::balance).collect::<Result<_, _>>()?,
             departure,
             follows,
             fits: geometry.fit(
                 &states,
                 &Surroundings {
-                    obstacles: &acting.obstacles,
+                    obstacles: &condensed.pair_motions(&acting.obstacles, &outcome.motion),
                     openings: &acting.openings,
                     residual: outcome.verdict.certificate.residual(),
                     departure: if follows { departure.value } else { 0.0 },
@@ -90,7 +101,8 @@ impl Measured {
             let shortfall = Shortfall::OutOfBalance { body, part };
             return (Status::NotConverged, Some(shortfall));
         }
-        match self.follows && self.fits.iter().all(|fit| fit.fault().is_none()) {
+        let fits = self.fits.iter().all(|fit| fit.fault().is_none());
+        match self.follows && fits && self.rigid.iter().all(RigidBalance::holds) {
             true => (Status::Certified, None),
             false => (Status::CouplingFault, None),
         }

@@ -1,21 +1,27 @@
 //! The pipeline: scene → mechanics → condensation → outer loop → recovery → judge; a load history
 //! goes round the last three.
 
+mod accuracy;
 mod cases;
 mod check;
 mod corrected;
+mod find;
 mod half_space;
+mod half_space_cases;
 mod halving;
 mod limit;
 mod measured;
+mod quantities;
+mod sensitivity;
 mod steps;
 mod substep;
+mod total;
 
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
-use crate::alternation::{Earlier, Outcome, Settings, Status};
+use crate::alternation::{Outcome, Settings, Status};
 use crate::body::{Body, Extremes};
 use crate::condensation::{Condensed, Driven};
 use crate::contact::{ContactPair, Opposite};
@@ -25,17 +31,22 @@ use crate::kkt::{PairFit, SceneGeometry};
 use crate::report;
 use crate::report::vtu::BodyFields;
 use crate::report::{
-    Continuity, Picture, Report, ReportParts, StageWork, Trust, replace_file, vtu,
+    Continuity, Picture, Report, ReportParts, RigidParts, StageWork, Trust, replace_file, vtu,
 };
 use crate::scene::{Mechanics, Scene};
-use crate::{alternation, body, kkt, validity};
+use crate::stage::Stage;
+use crate::{body, kkt, trust, validity};
 
-pub use cases::{Variation, cases, cases_watched};
+pub use accuracy::{Request, solve_within};
+pub use cases::{cases, cases_watched};
 pub use check::{Checked, check};
+pub use find::{Search, find};
 pub use half_space::solve_half_space;
+pub use half_space_cases::half_space_cases;
 pub(crate) use halving::Halving;
-pub use limit::limit;
+pub use limit::{limit, rigid_limit};
 pub use measured::{Acting, Measured};
+pub use quantities::Variation;
 pub use steps::{SolvedStep, solve_steps};
 
 /// Solves a scene; one with load steps to its end, or to the first state that is not certified.
@@ -53,7 +64,10 @@ pub fn solve(scene: &Scene) -> Result<Solution, Error> {
 struct Setup {
     title: String,
     units: String,
+    /// Under the factors of heat and initial stress.
     bodies: Arc<[Body]>,
+    /// The same at factors of one.
+    stated: Arc<[Body]>,
     pairs: Arc<[ContactPair]>,
     settings: Settings,
     notes: Vec<String>,
@@ -67,20 +81,23 @@ impl Setup {
         let Mechanics {
             bodies,
             contacts: pairs,
+            rigid_bodies,
             settings,
             notes,
             ..
         } = mechanics;
-        let condensed = Condensed::new(&bodies, &pairs)?;
+        let condensed = Condensed::with_rigid(&bodies, &pairs, &rigid_bodies)?;
         let geometry = SceneGeometry::new(&bodies, &pairs, condensed.surface())?;
         let acting = Acting {
             openings: pairs.iter().map(|pair| pair.gap).collect(),
             ..Acting::default()
         };
+        let bodies: Arc<[Body]> = bodies.into();
         Ok(Self {
             title: scene.title.clone(),
             units: scene.units.clone(),
-            bodies: bodies.into(),
+            stated: Arc::clone(&bodies),
+            bodies,
             pairs: pairs.into(),
             settings,
             notes,
@@ -92,6 +109,7 @@ impl Setup {
 
     /// Recovers the bodies of a solved problem, and measures them.
     fn recover(mut self, outcome: Outcome) -> Result<Solution, Error> {
+        Stage::Recovery.begin();
         let start = Instant::now();
         let (outcome, displacements) = self.displacements(outcome)?;
         let seconds = start.elapsed().as_secs_f64();
@@ -128,20 +146,20 @@ impl Setup {
     }
 
     /// Puts heat and initial stress under factors, as the stress of the bodies knows them; nothing is done
-    /// where no driven load has any. `stated` are the bodies at factors of one.
-    fn stress_under(&mut self, stated: &Arc<[Body]>, driven: &[Driven], factors: &[f64]) {
+    /// where no driven load has any.
+    fn stress_under(&mut self, driven: &[Driven], factors: &[f64]) {
         let acting = driven.iter().zip(factors).filter_map(|(driven, factor)| {
             let Driven::Load { body, index } = *driven else {
                 return None;
             };
-            let load = stated.get(body)?.loads.get(index)?;
+            let load = self.stated.get(body)?.loads.get(index)?;
             load.stresses().then(|| (body, index, load.scaled(*factor)))
         });
         let acting: Vec<_> = acting.collect();
         if acting.is_empty() {
             return;
         }
-        let mut bodies = stated.to_vec();
+        let mut bodies = self.stated.to_vec();
         for (body, index, load) in acting {
             bodies[body].loads[index] = load;
         }
@@ -241,6 +259,19 @@ impl Solution {
         Ok(near)
     }
 
+    /// Elastic energy `½ uᵀ K u` of all bodies and of the springs that hold them, in joule.
+    #[must_use]
+    pub fn elastic_energy(&self) -> f64 {
+        let bodies = self.setup.condensed.bodies().iter();
+        let energies = bodies.zip(&self.displacements).map(|(body, u)| {
+            let entries = body.stiffness().iter();
+            entries
+                .map(|(k, (row, column))| 0.5 * u[row] * k * u[column])
+                .sum::<f64>()
+        });
+        energies.sum()
+    }
+
     /// Equilibrium of each whole body, measured by the judge.
     #[must_use]
     pub fn balances(&self) -> &[kkt::Balance] {
@@ -259,9 +290,24 @@ impl Solution {
     ///
     /// None for a solution of [`solve`].
     pub fn report(&self) -> Result<Report, Error> {
-        let work = self.setup.condensed.work();
-        let halving = self.step.as_ref().and_then(SolvedStep::halving);
-        let halving: Vec<String> = halving.and_then(Halving::note).into_iter().collect();
+        self.with_parts(|parts| {
+            let halving = self.step.as_ref().and_then(SolvedStep::halving);
+            let halving: Vec<String> = halving.and_then(Halving::note).into_iter().collect();
+            let doubts = validity::notes(parts);
+            Report::new(&ReportParts {
+                notes: &[self.setup.notes.as_slice(), &halving, &doubts].concat(),
+                ..parts.clone()
+            })
+        })
+    }
+
+    /// What a report is made of, without notes.
+    fn with_parts<T>(
+        &self,
+        make: impl FnOnce(&ReportParts<'_>) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let condensed = &self.setup.condensed;
+        let work = condensed.work();
         let failure = self.outcome.failure.iter();
         let motions: Vec<_> = failure
             .flat_map(|failure| self.setup.condensed.motions(&failure.apparent))
@@ -271,7 +317,14 @@ impl Solution {
             .body_states(&self.outcome.reaction, &self.displacements);
         let support_forces = states.iter().map(kkt::support_forces);
         let support_forces: Vec<_> = support_forces.collect::<Result<_, _>>()?;
-        let parts = ReportParts {
+        let motion = &self.outcome.motion;
+        let rigid_motions = condensed.rigid_motions(motion);
+        let sides = match condensed.rigid_bodies() {
+            [] => Vec::new(),
+            _ => condensed.other_sides(&self.setup.acting.obstacles, motion),
+        };
+        let group_states: Vec<_> = states.iter().map(kkt::group_states).collect();
+        make(&ReportParts {
             title: &self.setup.title,
             units: &self.setup.units,
             bodies: &self.setup.bodies,
@@ -282,8 +335,14 @@ impl Solution {
             displacements: &self.displacements,
             motions: &motions,
             balances: &self.measured.balances,
+            rigid: RigidParts {
+                bodies: condensed.rigid_bodies(),
+                motions: &rigid_motions,
+                balances: &self.measured.rigid,
+            },
             extremes: self.extremes(),
             support_forces: &support_forces,
+            group_states: &group_states,
             departure: self.measured.departure,
             fits: &self.measured.fits,
             stages: &StageWork {
@@ -294,14 +353,9 @@ impl Solution {
                 condensation: work.condensation_seconds,
                 recovery: self.recovery_seconds,
             },
-            origins: self.step.as_ref().map_or(&[], |step| step.origins()),
+            origins: self.step.as_ref().map_or(&sides, |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
             notes: &[],
-        };
-        let doubts = validity::notes(&parts);
-        Report::new(&ReportParts {
-            notes: &[self.setup.notes.as_slice(), &halving, &doubts].concat(),
-            ..parts
         })
     }
 
@@ -360,8 +414,8 @@ impl Solution {
         };
         let problem = self.setup.condensed.problem();
         let settings = &self.setup.settings;
-        let others = alternation::other_starts(problem, settings, &self.outcome, starts)?;
-        let contraction = alternation::contraction(problem, &self.outcome);
+        let others = trust::other_starts(problem, settings, &self.outcome, starts)?;
+        let contraction = trust::contraction(problem, &self.outcome);
         let normals = problem.normals();
         Ok(Some(Trust::new(contraction, continuity, &others, normals)))
     }
@@ -378,10 +432,10 @@ impl Solution {
         }
         let problem = self.setup.condensed.problem();
         let start = match &self.step {
-            None => &Earlier::rest(problem),
+            None => &trust::Earlier::rest(problem),
             Some(step) => step.start(),
         };
-        let way_back = alternation::way_back(problem, &self.setup.settings, &self.outcome, start)?;
+        let way_back = trust::way_back(problem, &self.setup.settings, &self.outcome, start)?;
         Ok(Some(way_back.into()))
     }
 
@@ -397,11 +451,22 @@ impl Solution {
     ///
     /// [`Error::NotAccepted`] for bodies in 3D.
     pub fn to_svg(&self) -> Result<String, Error> {
-        let obstacle = |pair: &ContactPair| match pair.opposite {
-            Opposite::Obstacle(obstacle) => Some(obstacle),
+        let (condensed, acting) = (&self.setup.condensed, &self.setup.acting);
+        let motions = condensed.pair_motions(&acting.obstacles, &self.outcome.motion);
+        let obstacle = |(at, pair): (usize, &ContactPair)| match &pair.opposite {
+            Opposite::Obstacle(obstacle) => Some((
+                obstacle.clone(),
+                motions.get(at).copied().unwrap_or_default(),
+            )),
             Opposite::Surface { .. } => None,
         };
-        let obstacles: Vec<_> = self.setup.pairs.iter().filter_map(obstacle).collect();
+        let obstacles: Vec<_> = self
+            .setup
+            .pairs
+            .iter()
+            .enumerate()
+            .filter_map(obstacle)
+            .collect();
         Picture {
             report: &self.report()?,
             bodies: &self.setup.bodies,
@@ -427,10 +492,18 @@ impl Solution {
             stresses: &self.nodal_stresses(),
             facets: &self.setup.condensed.surface().facets,
             pairs: &self.setup.pairs,
-            obstacles: &self.setup.acting.obstacles,
+            obstacles: &self.drawn_motions(),
             friction: problem.friction(),
             initial_gap: problem.initial_gap(),
         })
+    }
+
+    /// Displacement of the obstacle per pair, of a rigid body of its reference point, in metre.
+    #[cfg(feature = "cli")]
+    fn drawn_motions(&self) -> Vec<[f64; 3]> {
+        let (condensed, acting) = (&self.setup.condensed, &self.setup.acting);
+        let motions = condensed.pair_motions(&acting.obstacles, &self.outcome.motion);
+        motions.iter().map(|motion| motion.translation).collect()
     }
 
     /// Stress per body and node, xx, yy, zz, yz, xz, xy, in pascal.
@@ -450,15 +523,37 @@ impl Solution {
     ///
     /// A file that cannot be written; what stood there before is then left as it was.
     pub fn write_vtu(&self, path: &Path) -> Result<(), Error> {
-        let solved = self.setup.bodies.iter().zip(&self.displacements);
+        let [of_bodies, of_contact] = self.to_vtu()?;
+        replace_file(path, &of_bodies)?;
+        replace_file(&vtu::contact_path(path), &of_contact)
+    }
+
+    /// The bodies and their contact surface as VTU documents, with the arrays that
+    /// [`vtu`] lists.
+    ///
+    /// # Errors
+    ///
+    /// None for a solution of [`solve`].
+    pub fn to_vtu(&self) -> Result<[String; 2], Error> {
+        let (bodies, moved) = (&self.setup.bodies, &self.displacements);
+        let solved = || bodies.iter().zip(moved);
         let stresses = self.stresses();
-        let fields: Vec<_> = solved
-            .zip(&stresses)
-            .map(|((body, displacement), stress)| BodyFields {
+        let strains: Vec<_> = solved()
+            .map(|(body, u)| body::cell_strain(body, u))
+            .collect();
+        let states = self.setup.body_states(&self.outcome.reaction, moved);
+        let forces = states.iter().map(kkt::nodal_forces);
+        let forces: Vec<_> = forces.collect::<Result<_, _>>()?;
+        let fields: Vec<_> = solved()
+            .enumerate()
+            .map(|(at, (body, displacement))| BodyFields {
                 mesh: &body.mesh,
                 displacement,
-                nodal_stress: &stress.nodes,
-                cell_stress: &stress.cells,
+                nodal_stress: &stresses[at].nodes,
+                cell_stress: &stresses[at].cells,
+                cell_strain: &strains[at],
+                contact_force: &forces[at][0],
+                support_force: &forces[at][1],
             })
             .collect();
         let of_bodies = vtu::body_vtu(&fields)?;
@@ -469,7 +564,6 @@ impl Solution {
             facets,
             &self.displacements,
         )?;
-        replace_file(path, &of_bodies)?;
-        replace_file(&vtu::contact_path(path), &of_contact)
+        Ok([of_bodies, of_contact])
     }
 }

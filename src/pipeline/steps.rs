@@ -3,10 +3,11 @@
 use super::halving::Halving;
 use super::substep::{Course, State};
 use super::{Setup, Solution};
-use crate::alternation::{Earlier, Status};
+use crate::alternation::Status;
 use crate::error::{Error, check_length};
 use crate::kkt::Ledger;
 use crate::scene::{Exact, Fingerprint, LoadHistory, SavedState, Scene, exact, plain};
+use crate::trust::Earlier;
 use crate::{alternation, report};
 
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
@@ -53,7 +54,10 @@ pub fn solve_steps(
 ) -> Result<Solution, Error> {
     let at_scene = |error| scene.locate(error);
     let mut mechanics = scene.mechanics()?;
-    let bodies = Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts));
+    let bodies = match mechanics.rigid_bodies.as_slice() {
+        [] => Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts)),
+        rigid => Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts, rigid)),
+    };
     let history = std::mem::take(&mut mechanics.history);
     let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let Some(&last) = history.instants().last() else {
@@ -193,7 +197,7 @@ impl Past {
         };
         let (path, halving) = course.step(&self.state, from, course.history.instants()[steps])?;
         let reached = path.last;
-        let origins = self.state.origins(&course.setup, &reached.state);
+        let origins = self.state.origins(&reached.state);
         let step = SolvedStep {
             number: steps + 1,
             at: reached.at,
@@ -274,6 +278,11 @@ impl SolvedStep {
     /// Where it was solved from; the last of its parts, where it was halved.
     pub(super) fn start(&self) -> &Earlier {
         &self.start
+    }
+
+    /// Since the start of the history, in metre per contact unknown.
+    pub(super) fn slip(&self) -> &[f64] {
+        self.state.slip()
     }
 
     fn past(&self) -> Past {

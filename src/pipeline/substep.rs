@@ -4,22 +4,20 @@ use std::sync::Arc;
 
 use super::Setup;
 use crate::alternation;
-use crate::alternation::{Earlier, Outcome, Status};
-use crate::body::Body;
+use crate::alternation::{Outcome, Status};
 use crate::condensation::Superposition;
 use crate::contact::ContactSurface;
 use crate::error::Error;
 use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
 use crate::problem::ContactProblem;
 use crate::scene::LoadHistory;
+use crate::trust::Earlier;
 
 /// Bodies on their way through a load history.
 pub(super) struct Course<'a> {
     pub(super) setup: Setup,
     pub(super) history: &'a LoadHistory,
     under: Superposition,
-    /// At factors of one.
-    stated: Arc<[Body]>,
 }
 
 /// What the next solve needs of a state.
@@ -31,8 +29,8 @@ pub(super) struct State {
     slip: Vec<f64>,
     /// Relative displacement per contact in global axes, to obstacles where they are, in metre.
     relative: Vec<[f64; 3]>,
-    /// Motion of the obstacle per contact pair, in metre.
-    obstacles: Vec<[f64; 3]>,
+    /// Motion of a rigid other side per contact, in metre.
+    others: Vec<[f64; 3]>,
     /// Initial gap per contact, in metre.
     gaps: Vec<f64>,
     /// None at rest.
@@ -56,7 +54,6 @@ impl<'a> Course<'a> {
         let (condensed, driven) = (&mut setup.condensed, history.driven());
         let under = condensed.superpose(&setup.bodies, &driven)?;
         Ok(Self {
-            stated: Arc::clone(&setup.bodies),
             setup,
             history,
             under,
@@ -75,7 +72,7 @@ impl<'a> Course<'a> {
         condensed.act(&self.under, &factors, &obstacles, slip)?;
         self.setup.acting.obstacles.clone_from(&obstacles);
         let driven = self.history.driven();
-        self.setup.stress_under(&self.stated, &driven, &factors);
+        self.setup.stress_under(&driven, &factors);
         Ok(obstacles)
     }
 
@@ -89,14 +86,15 @@ impl<'a> Course<'a> {
         displacements: &[Vec<f64>],
     ) -> Result<State, Error> {
         let obstacles = self.act(at, &slip)?;
+        let others = self.setup.condensed.other_sides(&obstacles, &motion);
         let account = Account::new(&self.setup.body_states(&reaction, displacements))?;
         Ok(State {
-            relative: self.setup.relative(displacements, &obstacles),
+            relative: self.setup.relative(displacements, &others),
             account: Some(Arc::new(account)),
             reaction,
             motion,
             slip,
-            obstacles,
+            others,
             gaps: self.setup.condensed.problem().initial_gap().to_vec(),
         })
     }
@@ -113,6 +111,7 @@ impl<'a> Course<'a> {
         let (outcome, displacements) = self.setup.displacements(outcome)?;
         let (setup, displacement) = (&self.setup, &outcome.verdict.displacement);
         let (condensed, problem) = (&setup.condensed, setup.condensed.problem());
+        let others = condensed.other_sides(&obstacles, &outcome.motion);
         let account = Account::new(&setup.body_states(&outcome.reaction, &displacements))?;
         let at_rest = match from.account {
             None => Some(account.at_rest()),
@@ -126,7 +125,7 @@ impl<'a> Course<'a> {
                 problem,
                 reaction: [&from.reaction, &outcome.reaction],
                 displacement,
-                moved: &moved(condensed.surface(), &from.obstacles, &obstacles),
+                moved: &moved(condensed.surface(), &from.others, &others),
                 opened: &from.opened(problem, condensed.surface()),
                 assembles: from.account.is_none(),
             },
@@ -135,8 +134,8 @@ impl<'a> Course<'a> {
             reaction: outcome.reaction.clone(),
             motion: outcome.motion.clone(),
             slip: condensed.slip(displacement, &from.slip),
-            relative: setup.relative(&displacements, &obstacles),
-            obstacles,
+            relative: setup.relative(&displacements, &others),
+            others,
             gaps: problem.initial_gap().to_vec(),
             account: Some(Arc::new(account)),
         };
@@ -160,7 +159,7 @@ impl State {
             motion: vec![0.0; problem.free_modes()],
             slip: vec![0.0; problem.unknowns()],
             relative: vec![[0.0; 3]; problem.contacts()],
-            obstacles: vec![[0.0; 3]; setup.pairs.len()],
+            others: vec![[0.0; 3]; problem.contacts()],
             gaps: problem.initial_gap().to_vec(),
             account: None,
         }
@@ -178,9 +177,10 @@ impl State {
         let mut displacement = vec![0.0; problem.unknowns()];
         let gaps = self.gaps.iter().zip(problem.initial_gap());
         let contacts = self.approaches(surface).zip(gaps);
+        let layers = problem.layers();
         for (&n, (approach, (before, gap))) in problem.normals().iter().zip(contacts) {
             // What is left of the gap is the same.
-            displacement[n] = approach + (gap - before);
+            displacement[n] = approach + layers[n] * self.reaction[n] + (gap - before);
         }
         Earlier {
             reaction: self.reaction.clone(),
@@ -223,9 +223,8 @@ impl State {
     }
 
     /// Where the slip from here to a later state counts from, per contact in global axes, in metre.
-    pub(super) fn origins(&self, setup: &Setup, later: &Self) -> Vec<[f64; 3]> {
-        let moved = setup.condensed.surface().obstacle_motions(&later.obstacles);
-        let contacts = self.relative.iter().zip(moved);
+    pub(super) fn origins(&self, later: &Self) -> Vec<[f64; 3]> {
+        let contacts = self.relative.iter().zip(&later.others);
         contacts
             .map(|(u, d)| [0, 1, 2].map(|axis| u[axis] + d[axis]))
             .collect()
@@ -240,11 +239,11 @@ impl Reached {
 
 impl Setup {
     /// Displacement of each contact relative to its other side where that is now, in metre.
-    fn relative(&self, displacements: &[Vec<f64>], obstacles: &[[f64; 3]]) -> Vec<[f64; 3]> {
+    fn relative(&self, displacements: &[Vec<f64>], others: &[[f64; 3]]) -> Vec<[f64; 3]> {
         let dimension = self.bodies.first().map_or(3, |body| body.mesh.dimension);
         let contacts = self.condensed.surface().nodes.iter();
         contacts
-            .zip(self.condensed.surface().obstacle_motions(obstacles))
+            .zip(others)
             .map(|(contact, d)| {
                 let u = relative_displacement(contact, displacements, dimension);
                 [0, 1, 2].map(|axis| u[axis] - d[axis])
@@ -255,8 +254,7 @@ impl Setup {
 
 /// Motion of the other side from one state to the next, in metre per contact unknown.
 fn moved(surface: &ContactSurface, before: &[[f64; 3]], after: &[[f64; 3]]) -> Vec<f64> {
-    let motions = surface.obstacle_motions(before).into_iter();
-    let motions = motions.zip(surface.obstacle_motions(after));
+    let motions = before.iter().zip(after);
     let contacts = surface.nodes.iter();
     contacts
         .zip(motions)

@@ -13,10 +13,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, ColMut, ColRef, Mat, Par};
+use faer::Mat;
 
-use super::{Floating, Operator};
+use super::{Compliance, Floating, Law, Operator};
 use crate::error::{Error, check_finite, check_length};
 
 /// Find reactions `t` and displacements `u = û + G t` (C1) that satisfy (L1)–(L3);
@@ -47,21 +46,91 @@ use crate::error::{Error, check_finite, check_length};
 ///
 /// [`step`](Self::step) is the same problem under another load, for friction on the slip since a state;
 /// it shares the operator, and [`solve_from`](crate::alternation::solve_from) starts it from there.
-#[derive(Clone, Debug)]
-pub struct ContactProblem {
+///
+/// The operator may be any [`Compliance`]. What needs entries of a matrix takes a `ContactProblem` as it
+/// stands, whose operator is an [`Operator`]; [`dense`](Self::dense) makes one of every other.
+#[derive(Debug)]
+pub struct ContactProblem<O = Operator> {
     friction: Vec<f64>,
     initial_gap: Vec<f64>,
     /// `û − u_ref` of (C13).
     free_displacement: Vec<f64>,
     reference: Vec<f64>,
-    operator: Arc<Operator>,
+    operator: Arc<O>,
     offsets: Vec<usize>,
     /// Contacts that were stated without friction and hold no tangent.
     smooth: Arc<[bool]>,
     floating: Option<Floating>,
+    /// Per contact; none where all obey Coulomb's law alone.
+    laws: Option<Arc<[Law]>>,
+}
+
+impl<O> Clone for ContactProblem<O> {
+    fn clone(&self) -> Self {
+        self.on_other(self.operator.clone())
+    }
+}
+
+impl<O> ContactProblem<O> {
+    /// The same problem with another operator of its size.
+    fn on_other<P>(&self, operator: Arc<P>) -> ContactProblem<P> {
+        ContactProblem {
+            operator,
+            friction: self.friction.clone(),
+            initial_gap: self.initial_gap.clone(),
+            free_displacement: self.free_displacement.clone(),
+            reference: self.reference.clone(),
+            offsets: self.offsets.clone(),
+            smooth: self.smooth.clone(),
+            floating: self.floating.clone(),
+            laws: self.laws.clone(),
+        }
+    }
 }
 
 impl ContactProblem {
+    /// The same problem with another operator of its size.
+    pub(crate) fn with_operator(&self, operator: Operator) -> Self {
+        self.on_other(Arc::new(operator))
+    }
+
+    /// First unknown of each block of `1 + tangents[i]`, and the number of unknowns at the end.
+    pub(crate) fn block_offsets(tangents: &[usize]) -> Result<Vec<usize>, Error> {
+        let mut offsets = vec![0];
+        for (contact, &count) in tangents.iter().enumerate() {
+            if count > 2 {
+                return Err(Error::OutOfRange {
+                    place: format!("tangents[{contact}]"),
+                    value: count as f64,
+                    accepted: "0, 1 or 2",
+                });
+            }
+            offsets.push(offsets[contact] + 1 + count);
+        }
+        Ok(offsets)
+    }
+
+    /// Finite and not negative.
+    pub(crate) fn check_friction(friction: &[f64]) -> Result<(), Error> {
+        check_finite("friction", friction)?;
+        match friction.iter().position(|&mu| mu < 0.0) {
+            None => Ok(()),
+            Some(contact) => Err(Error::OutOfRange {
+                place: format!("friction[{contact}]"),
+                value: friction[contact],
+                accepted: "friction >= 0",
+            }),
+        }
+    }
+
+    /// Compliance G, in m/N.
+    #[must_use]
+    pub fn compliance(&self) -> &Mat<f64> {
+        self.operator.compliance()
+    }
+}
+
+impl<O: Compliance> ContactProblem<O> {
     /// Checks and joins the parts.
     ///
     /// - `tangents`: tangential unknowns per contact, 0 to 2;
@@ -78,16 +147,32 @@ impl ContactProblem {
         friction: Vec<f64>,
         initial_gap: Vec<f64>,
         free_displacement: Vec<f64>,
-        operator: Operator,
+        operator: O,
+    ) -> Result<Self, Error> {
+        let operator = Arc::new(operator);
+        Self::on(operator, tangents, friction, initial_gap, free_displacement)
+    }
+
+    /// The same on an operator that others have too.
+    ///
+    /// # Errors
+    ///
+    /// As [`new`](Self::new).
+    pub fn on(
+        operator: Arc<O>,
+        tangents: &[usize],
+        friction: Vec<f64>,
+        initial_gap: Vec<f64>,
+        free_displacement: Vec<f64>,
     ) -> Result<Self, Error> {
         let contacts = tangents.len();
         check_length("friction", contacts, friction.len())?;
         check_length("initial_gap", contacts, initial_gap.len())?;
-        let offsets = Self::block_offsets(tangents)?;
+        let offsets = <ContactProblem>::block_offsets(tangents)?;
         let unknowns = offsets[contacts];
         check_length("free_displacement", unknowns, free_displacement.len())?;
         check_length("operator", unknowns, operator.size())?;
-        Self::check_friction(&friction)?;
+        <ContactProblem>::check_friction(&friction)?;
         check_finite("initial_gap", &initial_gap)?;
         check_finite("free_displacement", &free_displacement)?;
         let stated = tangents.iter().zip(&friction);
@@ -99,9 +184,10 @@ impl ContactProblem {
             initial_gap,
             free_displacement,
             reference: vec![0.0; unknowns],
-            operator: Arc::new(operator),
+            operator,
             offsets,
             floating: None,
+            laws: None,
         })
     }
 
@@ -147,7 +233,7 @@ impl ContactProblem {
     /// was stated without any and has no tangent for it.
     pub fn with_friction(&self, friction: Vec<f64>) -> Result<Self, Error> {
         check_length("friction", self.contacts(), friction.len())?;
-        Self::check_friction(&friction)?;
+        <ContactProblem>::check_friction(&friction)?;
         let rough = friction.iter().zip(self.smooth.iter());
         if let Some(contact) = rough.clone().position(|(&mu, &smooth)| smooth && mu > 0.0) {
             return Err(Error::OutOfRange {
@@ -157,16 +243,17 @@ impl ContactProblem {
                            condense it with any friction > 0, and set that to 0 where it is not wanted",
             });
         }
+        self.check_laws(&friction)?;
         Ok(Self {
             friction,
             ..self.clone()
         })
     }
 
-    /// The same problem with another operator of its size.
-    pub(crate) fn with_operator(&self, operator: Operator) -> Self {
+    /// The same problem under other laws, whose compliance is not looked at.
+    pub(crate) fn under(&self, laws: Option<Arc<[Law]>>) -> Self {
         Self {
-            operator: Arc::new(operator),
+            laws,
             ..self.clone()
         }
     }
@@ -195,35 +282,6 @@ impl ContactProblem {
         check_length("floating.modes", self.unknowns(), floating.modes().nrows())?;
         self.floating = Some(floating);
         Ok(self)
-    }
-
-    /// First unknown of each block of `1 + tangents[i]`, and the number of unknowns at the end.
-    pub(crate) fn block_offsets(tangents: &[usize]) -> Result<Vec<usize>, Error> {
-        let mut offsets = vec![0];
-        for (contact, &count) in tangents.iter().enumerate() {
-            if count > 2 {
-                return Err(Error::OutOfRange {
-                    place: format!("tangents[{contact}]"),
-                    value: count as f64,
-                    accepted: "0, 1 or 2",
-                });
-            }
-            offsets.push(offsets[contact] + 1 + count);
-        }
-        Ok(offsets)
-    }
-
-    /// Finite and not negative.
-    pub(crate) fn check_friction(friction: &[f64]) -> Result<(), Error> {
-        check_finite("friction", friction)?;
-        match friction.iter().position(|&mu| mu < 0.0) {
-            None => Ok(()),
-            Some(contact) => Err(Error::OutOfRange {
-                place: format!("friction[{contact}]"),
-                value: friction[contact],
-                accepted: "friction >= 0",
-            }),
-        }
     }
 
     /// Number of contacts.
@@ -275,10 +333,24 @@ impl ContactProblem {
         self.initial_gap[contact] - displacement[self.offsets[contact]]
     }
 
+    /// A displacement per unknown beyond the gaps, `u_N − g₀` and `u_T`, in metre.
+    pub(crate) fn beyond(&self, mut displacement: Vec<f64>) -> Vec<f64> {
+        for (&n, gap) in self.normals().iter().zip(&self.initial_gap) {
+            displacement[n] -= gap;
+        }
+        displacement
+    }
+
     /// Coefficient of friction per contact.
     #[must_use]
     pub fn friction(&self) -> &[f64] {
         &self.friction
+    }
+
+    /// What contacts obey beside Coulomb's law, per contact; none where all obey that alone.
+    #[must_use]
+    pub fn laws(&self) -> Option<&[Law]> {
+        self.laws.as_deref()
     }
 
     /// Initial gap per contact, in metre.
@@ -319,16 +391,21 @@ impl ContactProblem {
         self.floating.as_ref().map_or(0, |f| f.load().len())
     }
 
-    /// The condensed operator.
+    /// The operator.
     #[must_use]
-    pub fn operator(&self) -> &Operator {
+    pub fn operator(&self) -> &O {
         &self.operator
     }
 
-    /// Compliance G, in m/N.
-    #[must_use]
-    pub fn compliance(&self) -> &Mat<f64> {
-        self.operator.compliance()
+    /// The same problem with the entries of its operator, for one application per unknown: up to some
+    /// thousand contacts the cone programs can solve it.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Operator::from_compliance`].
+    pub fn dense(&self) -> Result<ContactProblem, Error> {
+        let operator = Operator::from_products(self.operator())?;
+        Ok(self.on_other(Arc::new(operator)))
     }
 
     /// Displacement `u = û + G t` (C1) for a reaction per unknown, in metre; from the reference
@@ -336,14 +413,7 @@ impl ContactProblem {
     #[must_use]
     pub fn displacement(&self, reaction: &[f64]) -> Vec<f64> {
         let mut displacement = self.free_displacement.clone();
-        matmul(
-            ColMut::from_slice_mut(&mut displacement),
-            Accum::Add,
-            self.compliance(),
-            ColRef::from_slice(reaction),
-            1.0,
-            Par::Seq,
-        );
+        self.operator.add_product(reaction, &mut displacement);
         displacement
     }
 }

@@ -4,13 +4,16 @@
 //! (C2)  S = L Lᵀ      G = S⁻¹ = L⁻ᵀ L⁻¹      L: lower triangular
 //! ```
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
+use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_inverse::invert_lower_triangular;
-use faer::{Accum, Mat, MatRef, Side, get_global_parallelism};
+use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par, Side, get_global_parallelism};
 
+use super::Compliance;
 use crate::error::{Error, check_finite};
 
 /// Largest asymmetry `|G_ij − G_ji|` accepted, relative to the largest entry of G.
@@ -48,6 +51,25 @@ impl Operator {
         let operator = Self::from_bodies(compliance)?;
         operator.check_definite()?;
         Ok(operator)
+    }
+
+    /// The entries of another compliance, by a product per unknown; symmetric whatever round-off the products
+    /// have.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`from_compliance`](Self::from_compliance).
+    pub fn from_products(other: &impl Compliance) -> Result<Self, Error> {
+        let size = other.size();
+        let mut columns = Mat::zeros(size, size);
+        let mut unit = vec![0.0; size];
+        for column in 0..size {
+            unit[column] = 1.0;
+            other.add_product(&unit, columns.col_as_slice_mut(column));
+            unit[column] = 0.0;
+        }
+        let mean = |i, j| 0.5 * (columns[(i, j)] + columns[(j, i)]);
+        Self::from_compliance(Mat::from_fn(size, size, mean))
     }
 
     /// Takes a sum of compliances of bodies, which is as definite as they are.
@@ -175,6 +197,52 @@ impl Operator {
             shifted[(i, i)] += shift;
         }
         shifted.llt(Side::Lower).ok()
+    }
+}
+
+impl Compliance for Operator {
+    fn size(&self) -> usize {
+        self.compliance().nrows()
+    }
+
+    fn add_product(&self, force: &[f64], displacement: &mut [f64]) {
+        matmul(
+            ColMut::from_slice_mut(displacement),
+            Accum::Add,
+            self.compliance(),
+            ColRef::from_slice(force),
+            1.0,
+            Par::Seq,
+        );
+    }
+
+    fn diagonal_block(&self, block: Range<usize>) -> [[f64; 3]; 3] {
+        let mut entries = [[0.0; 3]; 3];
+        for (a, row) in block.clone().enumerate() {
+            for (b, column) in block.clone().enumerate() {
+                entries[a][b] = self.compliance()[(row, column)];
+            }
+        }
+        entries
+    }
+
+    fn precondition(&self, on: &[usize], residual: &[f64]) -> Vec<f64> {
+        let own = on.iter().map(|&at| self.compliance()[(at, at)]);
+        let pairs = own.zip(residual);
+        pairs
+            .map(|(own, r)| if own > 0.0 { r / own } else { 0.0 })
+            .collect()
+    }
+
+    fn apply_block(&self, to: &[usize], of: &[usize], force: &[f64]) -> Vec<f64> {
+        let mut moved = vec![0.0; to.len()];
+        for (&column, t) in of.iter().zip(force) {
+            let column = self.compliance().col_as_slice(column);
+            to.iter()
+                .zip(&mut moved)
+                .for_each(|(&row, u)| *u += column[row] * t);
+        }
+        moved
     }
 }
 
@@ -319,5 +387,24 @@ mod tests {
         ] {
             assert!(said.contains(part), "{said}");
         }
+    }
+
+    #[test]
+    fn a_matrix_offers_what_every_compliance_does() {
+        let g = mat![[4.0, 1.0, 2.0], [1.0, 3.0, 0.5], [2.0, 0.5, 5.0]];
+        let operator = Operator::from_compliance(g).unwrap();
+        // Rows of G times (1, 2, −1).
+        assert_eq!(operator.apply(&[1.0, 2.0, -1.0]), [4.0, 6.5, -2.0]);
+        let mut moved = vec![1.0; 3];
+        operator.add_product(&[1.0, 2.0, -1.0], &mut moved);
+        assert_eq!(moved, [5.0, 7.5, -1.0]);
+        assert_eq!(operator.apply_block(&[0, 2], &[1], &[2.0]), [2.0, 1.0]);
+        let own = operator.diagonal_block(1..3);
+        assert_eq!(own, [[3.0, 0.5, 0.0], [0.5, 5.0, 0.0], [0.0; 3]]);
+        assert_eq!(operator.precondition(&[0, 2], &[2.0, 10.0]), [0.5, 2.0]);
+        assert_eq!(
+            Operator::from_products(&operator).unwrap().compliance(),
+            operator.compliance()
+        );
     }
 }

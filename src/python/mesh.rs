@@ -16,7 +16,8 @@ use super::error::{Error, refused};
 ///
 /// Mesh(points, cells): `points` is (nodes, d) in the unit of length, d = 2 or 3; `cells` maps kinds
 /// to node numbers from 0, (cells, nodes per cell) in Gmsh's order. Kinds: tri3, quad4, tri6, quad8,
-/// quad9 in 2D, tet4, hex8, tet10, hex20, hex27 in 3D. Nodes that no cell has are refused.
+/// quad9 in 2D, tet4, hex8, tet10, hex20, hex27, prism6,
+/// prism15, pyramid5, pyramid13 in 3D. Nodes that no cell has are refused.
 #[pyclass(module = "dpana", frozen, from_py_object)]
 #[derive(Clone)]
 pub(super) struct Mesh(pub(super) body::Mesh);

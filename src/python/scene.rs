@@ -47,6 +47,8 @@ impl StatedScene {
             let held = MeshSource::File {
                 file: PathBuf::from("in memory"),
                 scale: 1.0,
+                split: None,
+                groups: Vec::new(),
             };
             match std::mem::replace(&mut body.mesh, held) {
                 MeshSource::Given(mesh) => meshes.push((at, Mesh(mesh))),
@@ -108,10 +110,14 @@ impl StatedScene {
         parsed(py, &table.map_err(refused)?.to_json())
     }
 
-    /// By what factor each load can grow, and how much friction the loads take.
+    /// By what factor each load can grow, on rigid bodies (an upper bound) and on the elastic ones, and how much friction the loads take.
     fn limit<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let limits = py.detach(|| dpana::limit(&self.0)).map_err(refused)?;
-        parsed(py, &limits.to_json())
+        let limits = watched(py, &Flag::take(), |interrupt| {
+            let mut scene = self.0.clone();
+            scene.settings.interrupt = Some(interrupt);
+            dpana::limit(&scene)
+        })?;
+        parsed(py, &limits.map_err(refused)?.to_json())
     }
 
     /// The condensed problem, without solving it.
@@ -122,7 +128,11 @@ impl StatedScene {
                 .bodies
                 .first()
                 .map_or(3, |body| body.mesh.dimension);
-            let condensed = Condensed::new(&mechanics.bodies, &mechanics.contacts);
+            let condensed = Condensed::with_rigid(
+                &mechanics.bodies,
+                &mechanics.contacts,
+                &mechanics.rigid_bodies,
+            );
             let condensed = condensed.map_err(|error| self.0.locate(error))?;
             Ok(Problem::of_scene(&condensed, dimension))
         });

@@ -10,9 +10,9 @@ use crate::kkt::{ContactStatus, global_force, relative_displacement};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ReportedContactState {
-    /// No reaction.
+    /// No reaction; under other laws, parted.
     Open,
-    /// Pressed and held by friction.
+    /// Pressed and held by friction, or held by its law.
     Stick,
     /// Pressed and sliding; without friction every pressed contact.
     Slip,
@@ -43,8 +43,12 @@ pub struct Contact {
     pub area: f64,
     /// Contact force on the body, in newton.
     pub force: Vec<f64>,
-    /// Pressure `−t_N / area ≥ 0`, in pascal; `null` without an area.
+    /// Pressure `−t_N / area ≥ 0`, in pascal, negative where a law bears tension; `null` without an area.
     pub pressure: Option<f64>,
+    /// Largest friction that its law allows under that pressure, along an ellipse's direction, in pascal; absent where
+    /// the scene has no laws but Coulomb's, and where nothing bounds it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shear_bound: Option<f64>,
     /// Friction force on the body per area, in pascal; `null` without an area.
     pub friction_traction: Option<Vec<f64>>,
 }
@@ -77,6 +81,7 @@ pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<
             area: contact.area,
             force: in_dimension(force.total, dimension),
             pressure: per_area(force.pressing, contact.area),
+            shear_bound: shear_bound(parts, i),
             friction_traction: in_dimension(force.friction, dimension)
                 .into_iter()
                 .map(|f| per_area(f, contact.area))
@@ -86,11 +91,11 @@ pub(super) fn contacts(parts: &ReportParts<'_>, forces: &[ContactForce]) -> Vec<
 }
 
 /// Reactions of all contacts, split into normal and friction.
-pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
+pub(super) fn contact_forces(parts: &ReportParts<'_>, reaction: &[f64]) -> Vec<ContactForce> {
     let nodes = parts.surface.nodes.iter().zip(parts.problem.blocks());
     nodes
         .map(|(contact, block)| {
-            let block = &parts.outcome.reaction[block];
+            let block = &reaction[block];
             let total = global_force(contact, block);
             let normal = global_force(contact, &block[..1]);
             ContactForce {
@@ -107,18 +112,47 @@ pub(super) fn contact_forces(parts: &ReportParts<'_>) -> Vec<ContactForce> {
 /// step on, in metre. Not read
 /// from the contact problem, which holds no tangent where there is no friction: the bodies
 /// slide all the same.
-fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
+pub(super) fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
     if parts.outcome.verdict.status[i] == ContactStatus::Open {
         return [0.0; 3];
     }
     let contact = &parts.surface.nodes[i];
+    let laws = parts.problem.laws();
+    if laws.is_some_and(|laws| laws[i].compliance[1] > 0.0) {
+        return slip_without_layer(parts, i);
+    }
     let mut slip = relative_displacement(contact, parts.displacements, parts.dimension());
     if let Some(origin) = parts.origins.get(i) {
         slip.iter_mut().zip(origin).for_each(|(u, from)| *u -= from);
     }
-    let normal = contact.frame[0];
-    let along: f64 = slip.iter().zip(normal).map(|(u, n)| u * n).sum();
-    [0, 1, 2].map(|axis| slip[axis] - along * normal[axis])
+    across(contact.frame[0], slip)
+}
+
+/// `u − (u·n) n`.
+pub(super) fn across(normal: [f64; 3], vector: [f64; 3]) -> [f64; 3] {
+    let along: f64 = vector.iter().zip(normal).map(|(u, n)| u * n).sum();
+    [0, 1, 2].map(|axis| vector[axis] - along * normal[axis])
+}
+
+/// Slip of what obeys the law, as the contact problem has it: the bodies' displacement holds that of the layer.
+fn slip_without_layer(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
+    let displacement = &parts.outcome.verdict.displacement[parts.problem.block(i)];
+    let directions = parts.surface.nodes[i].frame[1..].iter();
+    let mut slip = [0.0; 3];
+    for (direction, u) in directions.zip(&displacement[1..]) {
+        slip.iter_mut()
+            .zip(direction)
+            .for_each(|(sum, d)| *sum += u * d);
+    }
+    slip
+}
+
+/// The shear that a contact's law allows, per area; none for Coulomb's own, where it is friction times pressure.
+fn shear_bound(parts: &ReportParts<'_>, i: usize) -> Option<f64> {
+    parts.problem.laws()?;
+    let normal = parts.outcome.reaction[parts.problem.normals()[i]];
+    let bound = parts.problem.stated_bound(i, normal);
+    per_area(bound, parts.surface.nodes[i].area).filter(|bound| bound.is_finite())
 }
 
 /// A traction; none for a contact without area, whose force has no finite one.

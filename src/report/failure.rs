@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::ReportParts;
-use super::motion::{ReportedMotion, motions, sentence, significant};
+use super::motion::{ReportedMotion, motions, names, sentence, significant};
 
 /// A motion that no contact resists while the loads work on it, checked by the judge.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,7 +32,11 @@ impl ReportedFailure {
         let failure = parts.outcome.failure.as_ref()?;
         // A smooth contact has no tangent that could tell: what does not open slides.
         let slides = !failure.sliding.is_empty() || failure.opening.is_empty();
-        let motions = motions(parts.bodies, parts.motions, slides);
+        let motions = motions(
+            &names(parts.bodies, parts.rigid.bodies),
+            parts.motions,
+            slides,
+        );
         let what = if slides { "friction" } else { "holding force" };
         let missing = significant(failure.missing);
         Some(Self {

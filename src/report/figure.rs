@@ -17,9 +17,9 @@ const FREE: f64 = 0.05;
 
 /// Colours that differ for every kind of colour vision (Okabe, Ito 2008, yellow and grey darkened),
 /// and marks that differ without colour.
-const COLOURS: [&str; 9] = [
+const COLOURS: [&str; 12] = [
     "#000000", "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#b58900", "#56b4e9", "#7f3b08",
-    "#6a3d9a",
+    "#6a3d9a", "#999999", "#e31a1c", "#00441b",
 ];
 const MARKS: [Mark; 4] = [Mark::Disc, Mark::Square, Mark::Diamond, Mark::Triangle];
 

@@ -5,7 +5,10 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::table::{Cell, Table};
-use crate::half_space::{HalfSpaceOutcome, HalfSpaceProblem, HalfSpaceStatus, clusters};
+use crate::error::Error;
+use crate::half_space::{
+    HalfSpaceOutcome, HalfSpaceProblem, HalfSpaceStatus, clusters, power_spectrum,
+};
 
 /// The whole report of a scene of half-spaces.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -116,6 +119,35 @@ impl HalfSpaceStep {
         }
     }
 
+    /// The step as a row of a table.
+    pub(crate) fn row(&self) -> Vec<(String, Cell)> {
+        let counts = [
+            ("step", self.step),
+            ("open", self.open),
+            ("stick", self.stick),
+            ("slip", self.slip),
+            ("clusters", self.clusters),
+        ];
+        let numbers = [
+            ("load", self.load),
+            ("approach", self.approach),
+            ("force_x", self.force[0]),
+            ("force_y", self.force[1]),
+            ("shift_x", self.shift[0]),
+            ("shift_y", self.shift[1]),
+            ("contact_area", self.contact_area),
+            ("area_fraction", self.area_fraction),
+            ("largest_cluster", self.largest_cluster),
+            ("peak_pressure", self.peak_pressure),
+            ("residual", self.residual),
+            ("applications", self.applications),
+        ];
+        let counts = counts.map(|(name, count)| (name.to_owned(), Cell::Count(count)));
+        let numbers = numbers.map(|(name, value)| (name.to_owned(), Cell::Number(value)));
+        let status = ("status".to_owned(), Cell::Word(self.status.into()));
+        counts.into_iter().chain(numbers).chain([status]).collect()
+    }
+
     /// Whether the judge certified the step.
     #[must_use]
     pub fn certified(&self) -> bool {
@@ -136,31 +168,7 @@ impl HalfSpaceReport {
     pub fn table(&self) -> Table {
         let mut table = Table::default();
         for step in &self.steps {
-            let numbers = [
-                ("load", step.load),
-                ("approach", step.approach),
-                ("force_x", step.force[0]),
-                ("force_y", step.force[1]),
-                ("shift_x", step.shift[0]),
-                ("shift_y", step.shift[1]),
-                ("contact_area", step.contact_area),
-                ("area_fraction", step.area_fraction),
-                ("largest_cluster", step.largest_cluster),
-                ("peak_pressure", step.peak_pressure),
-                ("residual", step.residual),
-                ("applications", step.applications),
-            ];
-            let counts = [
-                ("step", step.step),
-                ("open", step.open),
-                ("stick", step.stick),
-                ("slip", step.slip),
-                ("clusters", step.clusters),
-            ];
-            let counts = counts.map(|(name, count)| (name.to_owned(), Cell::Count(count)));
-            let numbers = numbers.map(|(name, value)| (name.to_owned(), Cell::Number(value)));
-            let status = ("status".to_owned(), Cell::Word(step.status.into()));
-            table.add(counts.into_iter().chain(numbers).chain([status]));
+            table.add(step.row());
         }
         table
     }
@@ -224,6 +232,27 @@ pub fn half_space_fields(
         field("slip_x", &outcome.slip[0], 1.0),
         field("slip_y", &outcome.slip[1], 1.0),
     ]
+}
+
+/// Power spectrum of the gap before loading, a ring of waves per row: wave number in 1/m, power in m⁴ (of a
+/// line m³), number of waves.
+///
+/// # Errors
+///
+/// None once the problem stands.
+pub fn spectrum_table(problem: &HalfSpaceProblem) -> Result<Table, Error> {
+    let operator = problem.operator();
+    let (grid, around) = (operator.grid(), operator.surroundings());
+    let mut table = Table::default();
+    for ring in power_spectrum(grid, around, problem.initial_gap())? {
+        let row = [
+            ("wave_number", Cell::Number(ring.wave_number)),
+            ("power", Cell::Number(ring.power)),
+            ("waves", Cell::Count(ring.waves)),
+        ];
+        table.add(row.map(|(name, cell)| (name.to_owned(), cell)));
+    }
+    Ok(table)
 }
 
 /// A field as a NumPy array of rows along x, version 1.0.

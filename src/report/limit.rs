@@ -28,9 +28,24 @@ pub struct LoadLimit {
     pub body: String,
     /// `pressure`, `traction`, `body_force` or `point_force`.
     pub kind: &'static str,
-    /// What happens to it.
+    /// What happens to it on rigid bodies: an upper bound.
     #[serde(flatten)]
     pub beyond: Beyond,
+    /// What is known of it on the elastic bodies; none where only rigid bodies were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub elastic: Option<ReportedElasticLimit>,
+}
+
+/// How far a load can grow on the elastic bodies: between two factors that were tried.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReportedElasticLimit {
+    /// Largest multiple that was found to hold, with a certified state.
+    pub held: Option<f64>,
+    /// Least multiple at which nothing was found to hold the bodies.
+    pub fails: Option<f64>,
+    /// How the bodies begin to move there.
+    pub motions: Vec<ReportedMotion>,
 }
 
 /// What a growing load leads to.
@@ -98,10 +113,16 @@ impl Limits {
         if !self.title.is_empty() {
             let _ = writeln!(text, "{}", self.title);
         }
-        let _ = writeln!(text, "each load alone, the others as they stand:");
+        let _ = writeln!(
+            text,
+            "each load alone, the others as they stand; on rigid bodies, an upper bound:"
+        );
         for load in &self.loads {
             let place = format!("{} ({}, {})", load.place, load.body, load.kind);
             let _ = writeln!(text, "  {place:<44} {}", load.beyond.words());
+            if let Some(elastic) = &load.elastic {
+                let _ = writeln!(text, "  {:<44} {}", "  elastic bodies", elastic.words());
+            }
         }
         let _ = writeln!(text, "least friction  {}", self.least_friction.words());
         text
@@ -125,6 +146,23 @@ impl Beyond {
                 format!("at no multiple: {}; missing {missing}", sentence(motions))
             }
             Self::Undecided => "too badly conditioned to tell".to_owned(),
+        }
+    }
+}
+
+impl ReportedElasticLimit {
+    fn words(&self) -> String {
+        let then = sentence(&self.motions);
+        match (self.held, self.fails) {
+            (Some(held), Some(fails)) => {
+                format!("{held:.9} times holds, {fails:.9} does not; then {then}")
+            }
+            (Some(held), None) => format!("{held} times holds; no end was found"),
+            (None, Some(0.0)) => format!("at no multiple that was tried: {then}"),
+            (None, Some(fails)) => {
+                format!("{fails} times does not hold, less was not found to: {then}")
+            }
+            (None, None) => "no state was found, nor that there is none".to_owned(),
         }
     }
 }

@@ -16,12 +16,17 @@
 //! | `certificate` | natural-map residual, every law's worst violation and where, bipotential gap; per body the balance of forces and moments |
 //! | `step` | of a history: number, instant, values of the tables, ledger of the step and since the start, what halving it changed |
 //! | `totals` | counts of open, stick and slip, resultants, contact area, slip area, peak pressure; the same per contact pair, and what its sides exchange |
+//! | `rigid_bodies` | of each: motion of the reference point, contact force and moment there, what is given, what is left |
+//! | `accuracy` | with `--accuracy`: a total extrapolated over a family of meshes, its error, rate and levels |
+//! | `found` | of `dpana find`: the parameter, its value, the total there and its derivative |
+//! | `sensitivity` | with `--sensitivity`: derivatives of the totals with respect to friction, gaps, loads, supports, obstacles, moduli |
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
 //! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
 //! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
 
+mod accuracy;
 mod base64;
 mod certificate;
 mod contacts;
@@ -32,16 +37,22 @@ mod failure;
 mod figure;
 mod file;
 mod fit;
+mod found;
 mod half_space;
 #[cfg(feature = "cli")]
 mod hard;
 mod limit;
+#[cfg(feature = "cli")]
+mod metamorphic;
 mod motion;
 mod notes;
 #[cfg(feature = "cli")]
 mod page;
 mod picture;
 mod quality;
+mod rigid_body;
+mod rigid_groups;
+mod sensitivity;
 mod shortfall;
 mod step;
 #[cfg(feature = "cli")]
@@ -62,6 +73,7 @@ mod work;
 
 use serde::Serialize;
 
+pub use accuracy::{Accuracy, AccuracyLevel};
 pub(crate) use certificate::ReportedDefect;
 pub use certificate::{ReportedBalance, ReportedCertificate, ReportedWorst};
 pub use contacts::{Contact, ReportedContactState};
@@ -71,19 +83,28 @@ pub use failure::ReportedFailure;
 pub use figure::plot;
 pub use file::replace_file;
 pub use fit::{ReportedMeasure, ReportedPairFit};
-pub use half_space::{HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy};
+pub use found::Found;
+pub use half_space::{
+    HalfSpaceField, HalfSpaceReport, HalfSpaceStep, half_space_fields, npy, spectrum_table,
+};
 #[cfg(feature = "cli")]
 pub(crate) use hard::{HardCase, HardCases};
-pub use limit::{Beyond, Limits, LoadLimit, ReportedLeastFriction};
+pub use limit::{Beyond, Limits, LoadLimit, ReportedElasticLimit, ReportedLeastFriction};
+#[cfg(feature = "cli")]
+pub use metamorphic::{MetamorphicBattery, MetamorphicChange};
 pub use motion::ReportedMotion;
-pub(crate) use motion::{motions, significant};
+pub(crate) use motion::{motions, names, significant};
 #[cfg(feature = "cli")]
 pub use page::Page;
 #[cfg(feature = "cli")]
 pub(crate) use page::PageState;
 pub(crate) use picture::Picture;
 pub use quality::Quality;
-pub use shortfall::ReportedShortfall;
+pub use rigid_body::{ReportedRigidBody, RigidParts};
+pub use rigid_groups::ReportedRigidGroup;
+pub(crate) use sensitivity::{Moved, derivatives};
+pub use sensitivity::{ReportedDerivative, Sensitivity};
+pub use shortfall::{Reason, ReportedShortfall};
 pub(crate) use step::ReportedHalving;
 pub use step::{ReportedLedger, ReportedStep};
 #[cfg(feature = "cli")]
@@ -133,10 +154,25 @@ pub struct Report {
     pub trust: Option<Trust>,
     /// Totals over the contact surface, and pair by pair.
     pub totals: Totals,
+    /// How wrong a total still is, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub accuracy: Option<Accuracy>,
+    /// The parameter that makes this state what was asked for, where one was looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub found: Option<Found>,
+    /// Derivatives of the totals, where they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sensitivity: Vec<Sensitivity>,
     /// What is largest in the bodies.
     pub extremes: ReportedExtremes,
     /// What every support carries.
     pub supports: Vec<SupportForce>,
+    /// How every rigid body moved and what acts on it; absent where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rigid_bodies: Vec<ReportedRigidBody>,
+    /// How every rigid group has moved, and what holds it; absent where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rigid_groups: Vec<ReportedRigidGroup>,
     /// How far pressure and stress can be trusted by eye.
     pub quality: Quality,
     /// What it took.
@@ -228,10 +264,14 @@ pub struct ReportParts<'a> {
     pub motions: &'a [PartMotion],
     /// Equilibrium of each body in that displacement.
     pub balances: &'a [kkt::Balance],
+    /// Rigid bodies, their motions and equilibrium.
+    pub rigid: RigidParts<'a>,
     /// Its extremes, body by body.
     pub extremes: &'a [body::Extremes],
     /// Force of every support on its body in global axes, body by body, in newton.
     pub support_forces: &'a [Vec<[f64; 3]>],
+    /// Motion of every rigid group and what holds it, body by body.
+    pub group_states: &'a [Vec<kkt::GroupState>],
     /// How far that displacement is from the condensed problem's at the contacts.
     pub departure: kkt::Worst,
     /// Whether the sides of each pair are in that state; empty where nobody looked.
@@ -263,7 +303,7 @@ impl Report {
             parts.problem,
             &parts.outcome.reaction,
         )?;
-        let forces = contacts::contact_forces(parts);
+        let forces = contacts::contact_forces(parts, &parts.outcome.reaction);
         let contacts = contacts::contacts(parts, &forces);
         Ok(Self {
             title: parts.title.to_owned(),
@@ -276,8 +316,13 @@ impl Report {
             certificate: ReportedCertificate::new(parts),
             trust: None,
             totals: Totals::new(parts, &exchanges, &forces),
+            accuracy: None,
+            found: None,
+            sensitivity: Vec::new(),
             extremes: ReportedExtremes::new(parts),
             supports: extremes::support_forces(parts),
+            rigid_bodies: ReportedRigidBody::all(&parts.rigid, parts.dimension()),
+            rigid_groups: rigid_groups::rigid_groups(parts),
             quality: Quality::new(parts, &contacts),
             work: ReportedWork::new(parts),
             history: parts

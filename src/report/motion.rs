@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::body::Body;
 use crate::condensation::PartMotion;
+use crate::contact::RigidBody;
 
 /// What is left of a motion below this part of it is nothing.
 const NOTHING: f64 = 1e-3;
@@ -24,14 +25,22 @@ pub struct ReportedMotion {
     pub words: String,
 }
 
-/// The parts that move at all; `slides` where a contact slides, else contacts only open.
-pub(crate) fn motions(bodies: &[Body], parts: &[PartMotion], slides: bool) -> Vec<ReportedMotion> {
+/// Names of bodies as motions number them: rigid ones after the others.
+pub(crate) fn names<'a>(bodies: &'a [Body], rigid: &'a [RigidBody]) -> Vec<&'a str> {
+    let names = bodies.iter().map(|body| body.name.as_str());
+    names
+        .chain(rigid.iter().map(|body| body.name.as_str()))
+        .collect()
+}
+
+/// The parts that move at all, of bodies with these names; `slides` where a contact slides, else contacts only open.
+pub(crate) fn motions(names: &[&str], parts: &[PartMotion], slides: bool) -> Vec<ReportedMotion> {
     let largest = parts.iter().map(reach).fold(0.0, f64::max);
     let moving = parts.iter().filter(|part| reach(part) > NOTHING * largest);
-    let named = moving.filter_map(|part| Some((bodies.get(part.body)?, part)));
+    let named = moving.filter_map(|part| Some((names.get(part.body)?, part)));
     named
-        .map(|(body, part)| ReportedMotion {
-            body: body.name.clone(),
+        .map(|(name, part)| ReportedMotion {
+            body: (*name).to_owned(),
             centre: part.centre,
             translation: part.translation,
             rotation: part.rotation,

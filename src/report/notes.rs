@@ -24,6 +24,13 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
         .zip(&parts.outcome.verdict.status);
     let at_rim: Vec<(usize, usize)> = contacts
         .filter(|(contact, status)| contact.rim && **status != ContactStatus::Open)
+        // What is tied ends where it is said to.
+        .filter(|(contact, _)| {
+            !parts
+                .pairs
+                .get(contact.pair)
+                .is_some_and(|pair| pair.law.bilateral)
+        })
         .map(|(contact, _)| (contact.body, contact.node))
         .collect();
     for nodes in named_by_body(parts, &at_rim) {

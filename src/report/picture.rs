@@ -15,7 +15,7 @@ use super::digits::number;
 use super::svg::{escaped, plain, text};
 use super::{Report, ReportedContactState};
 use crate::body::{Body, Facet};
-use crate::contact::Obstacle;
+use crate::contact::{Obstacle, RigidMotion};
 use crate::error::{Error, check_length};
 
 /// Largest width and height of what is drawn, and the margin around it.
@@ -50,8 +50,8 @@ pub(crate) struct Picture<'a> {
     pub(crate) displacements: &'a [Vec<f64>],
     /// Facets of the contact surface, with the index of their body.
     pub(crate) facets: &'a [(usize, Facet)],
-    /// The obstacles that they may touch.
-    pub(crate) obstacles: &'a [Obstacle],
+    /// The obstacles that they may touch, and how these have moved.
+    pub(crate) obstacles: &'a [(Obstacle, RigidMotion)],
 }
 
 impl Picture<'_> {
@@ -74,8 +74,11 @@ impl Picture<'_> {
         let words = self.report.title.chars().count();
         let view = View::around(positions.iter().flatten().copied().chain(ends), words);
         let mut svg = view.open(&self.report.title);
-        for obstacle in self.obstacles {
+        for (obstacle, motion) in self.obstacles {
+            let moved = view.moved(motion, factor);
+            let _ = writeln!(svg, "<g{moved}>");
             draw_obstacle(&mut svg, &view, obstacle);
+            svg.push_str("</g>\n");
         }
         for (body, places) in self.bodies.iter().zip(&positions) {
             draw_body(&mut svg, &view, body, places);
@@ -268,6 +271,18 @@ impl View {
         }
     }
 
+    /// The motion of an obstacle, enlarged, as an attribute; none of what stands still.
+    fn moved(&self, motion: &RigidMotion, factor: f64) -> String {
+        let ([u, v, _], [_, _, turn]) = (motion.translation, motion.rotation);
+        if [u, v, turn] == [0.0; 3] {
+            return String::new();
+        }
+        let [x, y] = self.place([motion.about[0], motion.about[1]]);
+        let [right, down] = [u, -v].map(|along| factor * self.scale * along);
+        let angle = -(factor * turn).to_degrees();
+        format!(" transform=\"translate({right:.1} {down:.1}) rotate({angle:.3} {x:.1} {y:.1})\"")
+    }
+
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let free = self.size[0] - self.scale * self.bounds.extent()[0];
         [
@@ -301,7 +316,7 @@ impl View {
 /// Half-space or disc; what lies outside the drawing is cut off by whoever shows it.
 fn draw_obstacle(svg: &mut String, view: &View, obstacle: &Obstacle) {
     let paint = "fill=\"#ddd\" stroke=\"#777\"";
-    let _ = match *obstacle {
+    let _ = match obstacle {
         Obstacle::Plane { point, normal } => {
             let middle = [0, 1].map(|axis| 0.5 * (view.bounds.low[axis] + view.bounds.high[axis]));
             let length = normal[0].hypot(normal[1]);
@@ -317,13 +332,27 @@ fn draw_obstacle(svg: &mut String, view: &View, obstacle: &Obstacle) {
         }
         Obstacle::Cylinder { center, radius, .. } | Obstacle::Sphere { center, radius } => {
             let [x, y] = view.place([center[0], center[1]]);
-            let radius = view.scale * radius;
+            let radius = view.scale * *radius;
             writeln!(
                 svg,
                 "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{radius:.1}\" {paint}/>"
             )
         }
+        other => draw_outline(svg, view, other),
     };
+}
+
+/// The line that bounds an obstacle.
+fn draw_outline(svg: &mut String, view: &View, obstacle: &Obstacle) -> std::fmt::Result {
+    let far = 2.0 * view.bounds.diagonal();
+    let points = obstacle.section(far);
+    let places = points.iter().map(|&point| view.place(point));
+    let path: Vec<String> = places.map(|[x, y]| format!("{x:.1},{y:.1}")).collect();
+    let path = path.join(" ");
+    writeln!(
+        svg,
+        "<polyline points=\"{path}\" fill=\"none\" stroke=\"#777\" stroke-width=\"2\"/>"
+    )
 }
 
 fn draw_body(svg: &mut String, view: &View, body: &Body, places: &[[f64; 2]]) {

@@ -47,6 +47,7 @@ impl Study {
         }
         self.mesh_rows(&mut page);
         self.run_rows(&mut page);
+        needs(&mut page);
         page + "</body>\n</html>\n"
     }
 
@@ -252,6 +253,52 @@ impl Study {
         }
         said
     }
+}
+
+/// What each kind of loop asks of its user, and what it costs where bodies are not condensed.
+const NEEDS: [[&str; 3]; 6] = [
+    [
+        "default, sweeps, full cone",
+        "nothing",
+        "one factorisation per body",
+    ],
+    [
+        "relaxed sweeps",
+        "a part of the way",
+        "one factorisation per body",
+    ],
+    [
+        "penalty",
+        "the stiffness of its springs, which is the error",
+        "a factorisation of the bodies in every Newton step",
+    ],
+    [
+        "augmented Lagrangian",
+        "the stiffness of its springs, which is the rate; when to stop each of two loops",
+        "a factorisation of the bodies in every Newton step",
+    ],
+    [
+        "Newton from rest",
+        "a start that is near enough; load steps where it is not",
+        "a factorisation of the bodies in every Newton step",
+    ],
+    [
+        "NSGS",
+        "patience, and friction that is low enough",
+        "one factorisation per body",
+    ],
+];
+
+fn needs(page: &mut String) {
+    let heads = [
+        "loop",
+        "what it needs from the user",
+        "without condensation",
+    ];
+    let rows = NEEDS
+        .iter()
+        .map(|row| (false, row.map(str::to_owned).to_vec()));
+    table(page, "What each needs", &heads.map(str::to_owned), rows);
 }
 
 fn caption(figure: &str) -> &'static str {

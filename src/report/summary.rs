@@ -4,8 +4,8 @@ use std::fmt::Write;
 
 use super::digits::{number, size};
 use super::{
-    Largest, Report, ReportedBalance, ReportedDefect, ReportedFailure, ReportedShortfall,
-    ReportedStatus,
+    Largest, Report, ReportedBalance, ReportedDefect, ReportedDerivative, ReportedFailure,
+    ReportedShortfall, ReportedStatus,
 };
 
 /// How many contact pairs the summary lists before it only counts them.
@@ -24,6 +24,7 @@ pub(super) fn summary(report: &Report) -> String {
                 .and_then(|()| energy(&mut text, report))
                 .and_then(|()| quality(&mut text, report))
                 .and_then(|()| pairs(&mut text, report))
+                .and_then(|()| asked(&mut text, report))
                 .and_then(|()| violations(&mut text, report))
                 .and_then(|()| trust(&mut text, report)),
         })
@@ -130,9 +131,33 @@ fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
         let (value, place) = (number(largest.value), place(largest, what));
         writeln!(text, "{name:<16}{value} at most, {place}")?;
     }
+    for body in &report.rigid_bodies {
+        let (name, moved) = (&body.name, vector(&body.displacement));
+        let (turned, force) = (vector(&body.rotation), vector(&body.contact.force));
+        let moment = vector(&body.contact.moment);
+        writeln!(
+            text,
+            "rigid body      `{name}` moves by {moved}, turns by {turned}"
+        )?;
+        writeln!(
+            text,
+            "                contact force {force}, moment {moment} on it"
+        )?;
+    }
     for support in report.supports.iter().take(LISTED) {
         let (place, force) = (&support.place, vector(&support.force));
         writeln!(text, "support         {force} by {place}")?;
+    }
+    for group in report.rigid_groups.iter().take(LISTED) {
+        writeln!(
+            text,
+            "rigid group     {}: moved {}, turned {}, held by {} and moment {}",
+            group.place,
+            vector(&group.displacement),
+            vector(&group.rotation),
+            vector(&group.force),
+            vector(&group.moment)
+        )?;
     }
     match report.supports.len().saturating_sub(LISTED) {
         0 => Ok(()),
@@ -186,9 +211,14 @@ fn energy(text: &mut String, report: &Report) -> std::fmt::Result {
     )
 }
 
-/// One line per contact pair, if there are several.
+/// One line per contact pair, if there are several; laws beyond Coulomb's.
 fn pairs(text: &mut String, report: &Report) -> std::fmt::Result {
     let pairs = &report.totals.pairs;
+    for pair in pairs.iter().take(LISTED) {
+        if let Some(law) = &pair.law {
+            writeln!(text, "law             {law}, at {}", pair.place)?;
+        }
+    }
     if pairs.len() < 2 {
         return Ok(());
     }
@@ -209,6 +239,35 @@ fn pairs(text: &mut String, report: &Report) -> std::fmt::Result {
         0 => Ok(()),
         rest => writeln!(text, "  ... and {rest} more"),
     }
+}
+
+/// What was asked for beside the state: the error of a total, a parameter that was found, and what the totals gain per
+/// unit of a parameter; a kink has both sides.
+fn asked(text: &mut String, report: &Report) -> std::fmt::Result {
+    if let Some(accuracy) = &report.accuracy {
+        writeln!(text, "accuracy        {}", accuracy.words())?;
+        for level in &accuracy.levels {
+            let value = number(level.value);
+            writeln!(text, "  {:>9} cells {value:>17}", level.cells)?;
+        }
+    }
+    if let Some(found) = &report.found {
+        writeln!(text, "found           {}", found.words())?;
+    }
+    for sensitivity in &report.sensitivity {
+        writeln!(text, "per unit of     {}", sensitivity.parameter)?;
+        let felt = |derivative: &&ReportedDerivative| {
+            derivative.growing != 0.0 || derivative.falling.is_some()
+        };
+        for derivative in sensitivity.derivatives.iter().filter(felt) {
+            let growing = number(derivative.growing);
+            let falling = derivative.falling.map_or_else(String::new, |falling| {
+                format!("  (KINK: {} as it falls)", number(falling))
+            });
+            writeln!(text, "  {:<16} {growing:>13}{falling}", derivative.of)?;
+        }
+    }
+    Ok(())
 }
 
 fn violations(text: &mut String, report: &Report) -> std::fmt::Result {

@@ -35,7 +35,7 @@ impl Table {
     }
 
     /// Appends a row of named entries; all of one table have the same names.
-    pub(super) fn add(&mut self, row: impl IntoIterator<Item = (String, Cell)>) {
+    pub(crate) fn add(&mut self, row: impl IntoIterator<Item = (String, Cell)>) {
         let (columns, row) = row.into_iter().unzip();
         self.columns = columns;
         self.rows.push(row);
@@ -236,6 +236,14 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
             ),
         ]);
     }
+    let derivatives = report.sensitivity.iter().flat_map(|sensitivity| {
+        let of = sensitivity.derivatives.iter();
+        of.map(|derivative| {
+            let name = format!("d({})/d({})", derivative.of, sensitivity.parameter);
+            (name, Cell::Number(derivative.growing))
+        })
+    });
+    row.extend(derivatives);
     row.into_iter()
 }
 

@@ -21,7 +21,7 @@ pub struct Totals {
     pub stick: usize,
     /// Pressed contacts that slide.
     pub slip: usize,
-    /// `Σ −t_N ≥ 0`, in newton.
+    /// `Σ −t_N ≥ 0`, in newton; negative where laws bear more tension than there is pressure.
     pub normal: f64,
     /// Sum of the friction forces, in newton.
     pub friction: Vec<f64>,
@@ -46,6 +46,9 @@ pub struct Totals {
 pub struct PairTotals {
     /// Where the scene says so, such as `contacts[0]`.
     pub place: String,
+    /// The law of its contacts in words; absent for Coulomb's with one coefficient.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<String>,
     /// Totals over its contacts.
     #[serde(flatten)]
     pub totals: Totals,
@@ -107,13 +110,13 @@ pub struct ReportedExchange {
 
 /// Sums while contacts are met.
 #[derive(Clone, Copy, Debug, Default)]
-struct Sums {
+pub(super) struct Sums {
     open: usize,
     stick: usize,
     slip: usize,
-    normal: f64,
-    friction: [f64; 3],
-    contact: kkt::Resultant,
+    pub(super) normal: f64,
+    pub(super) friction: [f64; 3],
+    pub(super) contact: kkt::Resultant,
     stick_area: f64,
     slip_area: f64,
     peak_pressure: f64,
@@ -126,14 +129,8 @@ impl Totals {
         exchanges: &[kkt::Exchange],
         forces: &[ContactForce],
     ) -> Self {
-        let mut all = Sums::default();
-        let mut of_pairs = vec![Sums::default(); parts.pairs.len()];
-        let contacts = parts.surface.nodes.iter().zip(forces);
-        for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
-            let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
-            all.add(contact, centre, force, status);
-            of_pairs[contact.pair].add(contact, centre, force, status);
-        }
+        let all = Sums::of(parts, forces, None);
+        let of_pairs = (0..parts.pairs.len()).map(|pair| Sums::of(parts, forces, Some(pair)));
         let dimension = parts.dimension();
         let fits = parts.fits.iter().map(|fit| Some(fit.into()));
         let fits = fits.chain(std::iter::repeat(None));
@@ -143,6 +140,7 @@ impl Totals {
         let pairs = parts.pairs.iter().zip(of_pairs).zip(exchanges).zip(judged);
         let pairs = pairs.map(|(((pair, sums), exchange), (coupling, fit))| PairTotals {
             place: pair.place.clone(),
+            law: pair.law.words(pair.friction),
             totals: sums.totals(dimension, Vec::new()),
             exchange: ReportedExchange::new(exchange, dimension),
             coupling,
@@ -163,6 +161,23 @@ impl ReportedExchange {
 }
 
 impl Sums {
+    /// Over the contacts of one pair, or of all.
+    pub(super) fn of(
+        parts: &ReportParts<'_>,
+        forces: &[ContactForce],
+        pair: Option<usize>,
+    ) -> Self {
+        let mut sums = Self::default();
+        let contacts = parts.surface.nodes.iter().zip(forces);
+        for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
+            if pair.is_none_or(|pair| pair == contact.pair) {
+                let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
+                sums.add(contact, centre, force, status);
+            }
+        }
+        sums
+    }
+
     /// `centre`: where its force acts, in metre.
     fn add(
         &mut self,

@@ -2,8 +2,9 @@
 
 use serde::Serialize;
 
-use crate::alternation::{Contraction, OtherStarts, Outcome, WayBack};
+use crate::alternation::Outcome;
 use crate::kkt::ContactStatus;
+use crate::trust::{Contraction, OtherStarts, WayBack};
 
 /// What other starts led to, and how much friction the alternation takes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,12 +1,15 @@
 //! Contacts: a part of a body's surface, what it may touch, and friction.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
 use super::field::{finite, is_zero};
-use super::selection::{norm, vector};
-use super::{selection, spelling};
+use super::law::{SceneCompliance, SceneLaw, coefficient};
+use super::rigid_body::Resolved;
+use super::{SceneObstacle, selection, spelling};
 use crate::body::Body;
-use crate::contact::{ContactPair, Obstacle, Opposite};
+use crate::contact::{ContactPair, Opposite, PairLaw};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
@@ -21,22 +24,40 @@ pub struct SceneContact {
     /// Name of the body; may be left out while there is only one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// The rigid obstacle that the surface may touch; this or `against`.
+    /// The rigid obstacle that the surface may touch; this, `against` or `rigid_body`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<SceneObstacle>,
-    /// The other surface that it may touch; this or `obstacle`.
+    /// The other surface that it may touch; this, `obstacle` or `rigid_body`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<SceneSurface>,
-    /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless.
+    /// Name of the rigid body that it may touch; this, `obstacle` or `against`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rigid_body: Option<String>,
+    /// Number of the rigid body's surface, from 0; may be left out while it has only one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<usize>,
+    /// Coefficient of friction, `μ ≥ 0`; 0 is frictionless. This or `law`.
     #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
-    pub friction: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    /// Another law than friction of one coefficient; this or `friction`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub law: Option<SceneLaw>,
+    /// Compliance of the surfaces themselves, in series with the bodies; none when left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub compliance: Option<SceneCompliance>,
     /// Gaps are measured between the smooth surfaces that straight facets stand for, as the turns
     /// between these say; `false`: between the facets. Left out, they are rounded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounded: Option<bool>,
     /// Length added to all gaps of the contact before loading: clearance if positive, interference if
     /// negative; 0 when left out. Meshes may be drawn touching.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub gap: f64,
+    /// Supports may move nodes of the surface along the obstacle: these slip by that motion, and friction acts
+    /// against it. Left out, such a motion is refused where there is friction, as it is mostly a mistake.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub dragged: bool,
 }
 
 /// The opposite surface of a contact between two bodies, or across a crack in one.
@@ -51,46 +72,6 @@ pub struct SceneSurface {
     pub group: String,
 }
 
-/// A rigid body, which only `steps` can move; vectors have one entry per axis.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum SceneObstacle {
-    /// Half-space behind a plane (a line in 2D).
-    Plane {
-        /// A point of the plane, in the unit of length.
-        point: Vec<f64>,
-        /// Direction out of the obstacle, towards the body; any length but zero.
-        normal: Vec<f64>,
-    },
-    /// Circle, in 2D.
-    Circle {
-        /// Centre, in the unit of length.
-        center: Vec<f64>,
-        /// Radius `> 0`, in the unit of length.
-        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
-        radius: f64,
-    },
-    /// Infinite circular cylinder, in 3D.
-    Cylinder {
-        /// A point of the axis, in the unit of length.
-        center: Vec<f64>,
-        /// Direction of the axis; any length but zero.
-        axis: Vec<f64>,
-        /// Radius `> 0`, in the unit of length.
-        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
-        radius: f64,
-    },
-    /// Sphere, in 3D.
-    Sphere {
-        /// Centre, in the unit of length.
-        center: Vec<f64>,
-        /// Radius `> 0`, in the unit of length.
-        #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
-        radius: f64,
-    },
-}
-
 impl SceneContact {
     /// A group of surface facets of the only body, which may touch an obstacle with this friction.
     #[must_use]
@@ -98,7 +79,7 @@ impl SceneContact {
         Self {
             group: group.to_owned(),
             obstacle: Some(obstacle),
-            friction,
+            friction: Some(friction),
             ..Self::default()
         }
     }
@@ -114,7 +95,18 @@ impl SceneContact {
                 body: Some(other[0].to_owned()),
                 group: other[1].to_owned(),
             }),
-            friction,
+            friction: Some(friction),
+            ..Self::default()
+        }
+    }
+
+    /// A group of surface facets of the only body, which may touch the rigid body of this name with this friction.
+    #[must_use]
+    pub fn on_rigid(rigid_body: &str, group: &str, friction: f64) -> Self {
+        Self {
+            group: group.to_owned(),
+            rigid_body: Some(rigid_body.to_owned()),
+            friction: Some(friction),
             ..Self::default()
         }
     }
@@ -134,44 +126,135 @@ impl SceneContact {
         self
     }
 
+    /// The same under a law in place of its coefficient of friction.
+    #[must_use]
+    pub fn with_law(mut self, law: SceneLaw) -> Self {
+        (self.friction, self.law) = (None, Some(law));
+        self
+    }
+
     /// The contact in the terms of mechanics.
-    pub(super) fn resolve(&self, place: &str, bodies: &[Body]) -> Result<ContactPair, Error> {
+    pub(super) fn resolve(
+        &self,
+        place: &str,
+        folder: &Path,
+        bodies: &[Body],
+        rigid: &[Resolved],
+    ) -> Result<ContactPair, Error> {
         let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
-        if !(self.friction >= 0.0 && self.friction.is_finite()) {
-            return Err(Error::OutOfRange {
-                place: format!("{place}.friction"),
-                value: self.friction,
-                accepted: "0 <= friction < infinity",
-            });
-        }
         finite(format!("{place}.gap"), self.gap)?;
         let mesh = &bodies[body].mesh;
-        let opposite = match (&self.obstacle, &self.against) {
-            (Some(obstacle), None) => {
+        let opposite = match (&self.obstacle, &self.against, &self.rigid_body) {
+            (Some(obstacle), None, None) => {
                 let place = format!("{place}.obstacle");
-                Opposite::Obstacle(obstacle.resolve(&place, mesh.dimension)?)
+                Opposite::Obstacle(obstacle.resolve(&place, folder, mesh.dimension)?)
             }
-            (None, Some(surface)) => surface.resolve(&format!("{place}.against"), bodies)?,
-            (given, _) => {
-                return Err(Error::NotAccepted {
-                    place: place.to_owned(),
-                    found: match given {
-                        Some(_) => "both `obstacle` and `against`".to_owned(),
-                        None => "neither `obstacle` nor `against`".to_owned(),
-                    },
-                    accepted: "one of the two".to_owned(),
-                });
+            (None, Some(surface), None) => surface.resolve(&format!("{place}.against"), bodies)?,
+            (None, None, Some(name)) => {
+                let of = &rigid[self.rigid_number(place, name, rigid)?];
+                Opposite::Obstacle(of.surface(place, self.surface)?)
             }
+            _ => return Err(self.not_one_side(place)),
         };
+        if let (None, Some(surface)) = (&self.rigid_body, self.surface) {
+            return Err(Error::NotAccepted {
+                place: format!("{place}.surface"),
+                found: format!("{surface} without `rigid_body`"),
+                accepted: "the number of a surface of the rigid body that `rigid_body` names"
+                    .to_owned(),
+            });
+        }
+        let (friction, law) = self.law(place, body, &opposite, bodies)?;
         Ok(ContactPair {
             place: place.to_owned(),
             body,
             facets: selection::facets(mesh, &format!("{place}.group"), &self.group)?,
             opposite,
-            friction: self.friction,
+            friction,
+            law,
             rounded: self.rounded.unwrap_or(true),
             gap: self.gap,
+            dragged: self.dragged,
         })
+    }
+}
+
+impl SceneContact {
+    /// Number of the rigid body that the contact names.
+    pub(super) fn rigid_number(
+        &self,
+        place: &str,
+        name: &str,
+        rigid: &[Resolved],
+    ) -> Result<usize, Error> {
+        let known = || rigid.iter().map(|rigid| rigid.body.name.as_str());
+        known()
+            .position(|known| known == name)
+            .ok_or_else(|| Error::UnknownName {
+                place: format!("{place}.rigid_body"),
+                what: "rigid body",
+                nearest: spelling::nearest(name, known()).map(str::to_owned),
+                name: name.to_owned(),
+                known: known().map(str::to_owned).collect(),
+            })
+    }
+
+    fn not_one_side(&self, place: &str) -> Error {
+        let stated = [
+            ("`obstacle`", self.obstacle.is_some()),
+            ("`against`", self.against.is_some()),
+            ("`rigid_body`", self.rigid_body.is_some()),
+        ];
+        let stated: Vec<_> = stated
+            .iter()
+            .filter(|(_, is)| *is)
+            .map(|(key, _)| *key)
+            .collect();
+        Error::NotAccepted {
+            place: place.to_owned(),
+            found: match stated.as_slice() {
+                [] => "neither `obstacle` nor `against` nor `rigid_body`".to_owned(),
+                several => format!("both {}", several.join(" and ")),
+            },
+            accepted: "one of `obstacle`, `against` and `rigid_body`".to_owned(),
+        }
+    }
+
+    /// Coefficient of friction, and what else the contacts obey.
+    fn law(
+        &self,
+        place: &str,
+        body: usize,
+        opposite: &Opposite,
+        bodies: &[Body],
+    ) -> Result<(f64, PairLaw), Error> {
+        let compliance = self.compliance.unwrap_or_default();
+        let compliance = [compliance.normal, compliance.tangential];
+        let (friction, law) = match (self.friction, &self.law) {
+            (Some(friction), None) => {
+                let friction = coefficient(format!("{place}.friction"), friction)?;
+                (friction, PairLaw::default())
+            }
+            (None, Some(law)) => {
+                let mut sides = vec![(body, &bodies[body])];
+                if let Opposite::Surface { body, .. } = opposite {
+                    sides.push((*body, &bodies[*body]));
+                }
+                let dimension = bodies[body].mesh.dimension;
+                law.resolve(&format!("{place}.law"), &sides, dimension)?
+            }
+            (given, _) => {
+                return Err(Error::NotAccepted {
+                    place: place.to_owned(),
+                    found: match given {
+                        Some(_) => "both `friction` and `law`".to_owned(),
+                        None => "neither `friction` nor `law`".to_owned(),
+                    },
+                    accepted: "one of the two".to_owned(),
+                });
+            }
+        };
+        Ok((friction, PairLaw { compliance, ..law }))
     }
 }
 
@@ -209,83 +292,4 @@ fn find_body(place: &str, name: Option<&str>, bodies: &[Body]) -> Result<usize, 
                 })
         }
     }
-}
-
-impl SceneObstacle {
-    /// The half-space behind a plane through a point, in the unit of length; `normal` points to the body.
-    #[must_use]
-    pub fn plane(point: &[f64], normal: &[f64]) -> Self {
-        Self::Plane {
-            point: point.to_vec(),
-            normal: normal.to_vec(),
-        }
-    }
-
-    fn resolve(&self, place: &str, dimension: usize) -> Result<Obstacle, Error> {
-        let (kind, lives_in) = match self {
-            Self::Plane { .. } => ("plane", dimension),
-            Self::Circle { .. } => ("circle", 2),
-            Self::Cylinder { .. } => ("cylinder", 3),
-            Self::Sphere { .. } => ("sphere", 3),
-        };
-        if lives_in != dimension {
-            return Err(Error::NotAccepted {
-                place: place.to_owned(),
-                found: format!("a {kind}"),
-                accepted: match dimension {
-                    2 => "plane or circle for a body in 2D".to_owned(),
-                    _ => "plane, cylinder or sphere for a body in 3D".to_owned(),
-                },
-            });
-        }
-        let at = |field: &str| format!("{place}.{kind}.{field}");
-        let point = |field, values: &[f64]| vector(&at(field), values, dimension);
-        Ok(match self {
-            Self::Plane { point: on, normal } => Obstacle::Plane {
-                point: point("point", on)?,
-                normal: direction(&at("normal"), normal, dimension)?,
-            },
-            Self::Circle { center, radius } => Obstacle::Cylinder {
-                center: point("center", center)?,
-                axis: [0.0, 0.0, 1.0],
-                radius: positive(at("radius"), *radius)?,
-            },
-            Self::Cylinder {
-                center,
-                axis,
-                radius,
-            } => Obstacle::Cylinder {
-                center: point("center", center)?,
-                axis: direction(&at("axis"), axis, dimension)?,
-                radius: positive(at("radius"), *radius)?,
-            },
-            Self::Sphere { center, radius } => Obstacle::Sphere {
-                center: point("center", center)?,
-                radius: positive(at("radius"), *radius)?,
-            },
-        })
-    }
-}
-
-fn positive(place: String, radius: f64) -> Result<f64, Error> {
-    if radius > 0.0 && radius.is_finite() {
-        return Ok(radius);
-    }
-    Err(Error::OutOfRange {
-        place,
-        value: radius,
-        accepted: "0 < radius < infinity",
-    })
-}
-
-fn direction(place: &str, values: &[f64], dimension: usize) -> Result<[f64; 3], Error> {
-    let direction = vector(place, values, dimension)?;
-    if norm(direction) > 0.0 {
-        return Ok(direction);
-    }
-    Err(Error::NotAccepted {
-        place: place.to_owned(),
-        found: format!("{values:?}"),
-        accepted: "a direction of any length but zero".to_owned(),
-    })
 }

@@ -1,11 +1,14 @@
 //! An elastic body: mesh, model, materials, supports and loads.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::field::is_zero;
-use super::{MeshSource, SceneFoundation, SceneLoad, SceneSupport, selection};
+use super::{
+    MeshSource, SceneFoundation, SceneLoad, SceneMaterial, ScenePeriodic, SceneRigidGroup,
+    SceneSupport, selection,
+};
 use crate::body;
 use crate::body::{Body, Material, Mesh, Model};
 use crate::error::Error;
@@ -32,13 +35,42 @@ pub struct SceneBody {
     /// Given forces, heat and initial stress.
     #[serde(default)]
     pub loads: Vec<SceneLoad>,
+    /// More groups: each of all members of some groups of the mesh, to stand wherever a group stands.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub groups: BTreeMap<String, Vec<String>>,
+    /// What the displacement of its cells is made of; `standard` when left out.
+    #[serde(default, skip_serializing_if = "is_standard")]
+    pub formulation: SceneFormulation,
     /// Springs that hold it to the ground.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub foundation: Vec<SceneFoundation>,
+    /// Groups that move as rigid bodies, coupled to reference points.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rigid_groups: Vec<SceneRigidGroup>,
+    /// Pairs of faces, where the body repeats.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub periodic: Vec<ScenePeriodic>,
 }
 
 fn unnamed() -> String {
     "body".to_owned()
+}
+
+fn is_standard(formulation: &SceneFormulation) -> bool {
+    *formulation == SceneFormulation::Standard
+}
+
+/// What the displacement of a cell is made of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub enum SceneFormulation {
+    /// Of shape functions alone.
+    #[default]
+    Standard,
+    /// For bending: quadrilaterals of four nodes and hexahedra of eight also have incompatible modes, with which a few
+    /// through the depth bend as a beam does; other cells are as in `standard`.
+    IncompatibleModes,
 }
 
 /// How strain and stress live in the body's dimension.
@@ -61,68 +93,9 @@ pub enum SceneModel {
     Solid,
 }
 
-/// An isotropic linear elastic material.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[serde(deny_unknown_fields, expecting = "an object with young and poisson")]
-pub struct SceneMaterial {
-    /// Group of cells; all cells when left out, which only a single material may do.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub group: Option<String>,
-    /// Young's modulus `E > 0`, in force per area.
-    #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
-    pub young: f64,
-    /// Poisson's ratio, `-1 < ν < 0.5`.
-    #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = -1, "exclusiveMaximum" = 0.5)))]
-    pub poisson: f64,
-    /// Thermal expansion per unit of temperature, for loads by `temperature`; 0 when left out.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub expansion: f64,
-    /// Mass per volume `ρ ≥ 0`, for loads by `gravity` and `centrifugal`; 0 when left out. Masses are
-    /// consistent with the other units: with mm, N and s it is in t/mm³ (steel: 7.85e-9).
-    #[cfg_attr(feature = "cli", schemars(range(min = 0)))]
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub density: f64,
-}
-
 /// Models of a mesh in 2D.
 const PLANE: &str = "plane_strain, plane_stress or axisymmetric for a mesh in 2D, or else a \
     mesh with cells of a solid (from Gmsh: `gmsh -3`, with the volume in a physical group)";
-
-impl SceneMaterial {
-    /// A material of all cells: Young's modulus in force per area, Poisson's ratio.
-    #[must_use]
-    pub fn new(young: f64, poisson: f64) -> Self {
-        Self {
-            group: None,
-            young,
-            poisson,
-            expansion: 0.0,
-            density: 0.0,
-        }
-    }
-
-    /// The same with a thermal expansion, per unit of temperature.
-    #[must_use]
-    pub fn with_expansion(mut self, expansion: f64) -> Self {
-        self.expansion = expansion;
-        self
-    }
-
-    /// The same with a mass per volume.
-    #[must_use]
-    pub fn with_density(mut self, density: f64) -> Self {
-        self.density = density;
-        self
-    }
-
-    /// The same for a group of cells only.
-    #[must_use]
-    pub fn of(mut self, group: &str) -> Self {
-        self.group = Some(group.to_owned());
-        self
-    }
-}
 
 impl SceneBody {
     /// A body on a mesh from memory, from a file or from a generator, with nothing on it yet.
@@ -135,7 +108,11 @@ impl SceneBody {
             materials: Vec::new(),
             supports: Vec::new(),
             loads: Vec::new(),
+            groups: BTreeMap::new(),
+            formulation: SceneFormulation::default(),
             foundation: Vec::new(),
+            rigid_groups: Vec::new(),
+            periodic: Vec::new(),
         }
     }
 
@@ -167,10 +144,31 @@ impl SceneBody {
         self
     }
 
+    /// The body with cells that bend as beams do: quadrilaterals of four nodes and hexahedra of eight.
+    #[must_use]
+    pub fn with_incompatible_modes(mut self) -> Self {
+        self.formulation = SceneFormulation::IncompatibleModes;
+        self
+    }
+
     /// The body with springs to the ground.
     #[must_use]
     pub fn with_foundation(mut self, foundation: SceneFoundation) -> Self {
         self.foundation.push(foundation);
+        self
+    }
+
+    /// The body with a group that moves as a rigid body.
+    #[must_use]
+    pub fn with_rigid_group(mut self, group: SceneRigidGroup) -> Self {
+        self.rigid_groups.push(group);
+        self
+    }
+
+    /// The body with a pair of faces where it repeats.
+    #[must_use]
+    pub fn with_periodic(mut self, periodic: ScenePeriodic) -> Self {
+        self.periodic.push(periodic);
         self
     }
 
@@ -193,17 +191,28 @@ impl SceneBody {
                 )),
             }
         }
+        self.join_groups(place, &mut mesh)?;
         let model = self.resolve_model(place, mesh.dimension)?;
-        let (materials, material_of_cell) = self.resolve_materials(place, &mesh)?;
+        let (materials, material_of_cell) = self.resolve_materials(place, &mesh, model)?;
         let supports = (self.supports.iter().enumerate())
             .map(|(at, support)| support.resolve(format!("{place}.supports[{at}]"), &mesh, model))
             .collect::<Result<_, _>>()?;
-        let loads = (self.loads.iter().enumerate())
+        let mut loads = (self.loads.iter().enumerate())
             .map(|(at, load)| load.resolve(&format!("{place}.loads[{at}]"), folder, &mesh, model))
-            .collect::<Result<_, _>>()?;
+            .collect::<Result<Vec<_>, _>>()?;
         let foundation = (self.foundation.iter().enumerate())
             .map(|(at, springs)| springs.resolve(format!("{place}.foundation[{at}]"), &mesh))
             .collect::<Result<_, _>>()?;
+        let mut ties = Vec::new();
+        for (at, group) in self.rigid_groups.iter().enumerate() {
+            let (tie, load) =
+                group.resolve(&format!("{place}.rigid_groups[{at}]"), &mesh, model)?;
+            ties.push(tie);
+            loads.extend(load);
+        }
+        for (at, faces) in self.periodic.iter().enumerate() {
+            ties.push(faces.resolve(&format!("{place}.periodic[{at}]"), &mesh, model)?);
+        }
         let body = Body {
             name: self.name.clone(),
             mesh,
@@ -213,10 +222,33 @@ impl SceneBody {
             supports,
             loads,
             foundation,
+            formulation: match self.formulation {
+                SceneFormulation::Standard => body::Formulation::Standard,
+                SceneFormulation::IncompatibleModes => body::Formulation::IncompatibleModes,
+            },
+            ties,
         };
         body::check(&body)?;
         body::prescribed(&body)?;
         Ok(body)
+    }
+
+    /// Adds the groups that are made of others.
+    fn join_groups(&self, place: &str, mesh: &mut Mesh) -> Result<(), Error> {
+        let mut joined = Vec::new();
+        for (name, members) in &self.groups {
+            let place = format!("{place}.groups.{name}");
+            if mesh.groups.contains_key(name) {
+                return Err(Error::NotAccepted {
+                    place,
+                    found: format!("`{name}`, which the mesh has"),
+                    accepted: "the name of a new group".to_owned(),
+                });
+            }
+            joined.push((name.clone(), selection::union(mesh, &place, members)?));
+        }
+        mesh.groups.extend(joined);
+        Ok(())
     }
 
     fn resolve_model(&self, place: &str, dimension: usize) -> Result<Model, Error> {
@@ -246,19 +278,14 @@ impl SceneBody {
         &self,
         place: &str,
         mesh: &Mesh,
+        model: Model,
     ) -> Result<(Vec<Material>, Vec<usize>), Error> {
         const NONE: usize = usize::MAX;
         let mut of_cell = vec![NONE; mesh.cell_count()];
         let mut materials = Vec::new();
         for (number, stated) in self.materials.iter().enumerate() {
             let place = format!("{place}.materials[{number}]");
-            let material = Material {
-                expansion: stated.expansion,
-                density: stated.density,
-                ..Material::new(stated.young, stated.poisson)
-            };
-            material.validate(&place)?;
-            materials.push(material);
+            materials.push(stated.resolve(&place, model)?);
             let Some(group) = &stated.group else {
                 if self.materials.len() == 1 {
                     of_cell.fill(number);

@@ -8,7 +8,7 @@ use serde::de::{MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::selection::{norm, vector};
-use crate::body::{Affine, Line};
+use crate::body::{Affine, Line, Model};
 use crate::error::{Error, check_finite, check_length};
 
 /// A number that is an affine function of position: `value + gradient · (x − at)`.
@@ -186,7 +186,7 @@ impl SceneTurn {
 }
 
 /// A line through a point; out of the plane in 2D.
-fn line(
+pub(super) fn line(
     place: &str,
     point: &[f64],
     direction: Option<&[f64]>,
@@ -221,6 +221,60 @@ fn line(
         }
     };
     Ok(Line { point, direction })
+}
+
+/// A line.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(
+    deny_unknown_fields,
+    expecting = "an object with point, and in 3D direction"
+)]
+pub struct SceneLine {
+    /// A point of it, in the unit of length.
+    pub point: Vec<f64>,
+    /// Its direction in 3D, of any length but zero; in 2D it is that out of the plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Vec<f64>>,
+}
+
+impl SceneLine {
+    pub(super) fn resolve(&self, place: &str, model: Model) -> Result<Line, Error> {
+        line(
+            place,
+            &self.point,
+            self.direction.as_deref(),
+            model.dimension(),
+        )
+    }
+}
+
+/// A direction of a material: in 2D its third entry may be left out.
+pub(super) fn material_direction(
+    place: &str,
+    given: &[f64],
+    model: Model,
+) -> Result<[f64; 3], Error> {
+    check_finite(place, given)?;
+    let direction = match *given {
+        [x, y, z] => [x, y, z],
+        [x, y] if model.dimension() == 2 => [x, y, 0.0],
+        _ => {
+            return Err(Error::Length {
+                place: place.to_owned(),
+                expected: model.dimension(),
+                found: given.len(),
+            });
+        }
+    };
+    if norm(direction) == 0.0 {
+        return Err(Error::Direction {
+            place: place.to_owned(),
+            value: direction,
+            accepted: "a direction of any length but zero",
+        });
+    }
+    Ok(direction)
 }
 
 /// A plain value, or an object in its place; the message is that of whichever stands there.

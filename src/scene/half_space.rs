@@ -26,8 +26,15 @@ const FAR: f64 = 10.0;
 
 /// A scene of one half-space on a rigid body, or of two.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene of half-spaces")]
 pub struct HalfSpaceScene {
+    /// Where editors find the schema of scenes; not read.
+    #[serde(default, rename = "$schema")]
+    pub schema: Option<String>,
+    /// Anything the author wants to say; not read.
+    #[serde(default)]
+    pub comment: Option<String>,
     /// Shown in reports.
     #[serde(default)]
     pub title: String,
@@ -64,6 +71,7 @@ pub struct HalfSpaceScene {
 
 /// Materials, grid and surroundings.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a half-space")]
 pub struct SceneHalfSpace {
     /// Material of the half-space.
@@ -81,6 +89,7 @@ pub struct SceneHalfSpace {
 
 /// Young's modulus, in Pa, and Poisson's ratio.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a material")]
 pub struct SceneHalf {
     /// Young's modulus `> 0`, in Pa.
@@ -91,6 +100,7 @@ pub struct SceneHalf {
 
 /// What lies around the grid.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SceneSurroundings {
     /// A free surface.
@@ -104,6 +114,7 @@ pub enum SceneSurroundings {
 
 /// One shape; lengths in metre.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 pub enum SceneSurfaceShape {
     /// A rigid sphere on the middle of the grid.
@@ -155,6 +166,7 @@ pub enum SceneSurfaceShape {
 
 /// What presses and drags: one of the first two, at most one of the others.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a step")]
 pub struct SceneDrive {
     /// Force that presses, in N.
@@ -169,6 +181,7 @@ pub struct SceneDrive {
 
 /// Steady rolling.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "an object of creepages")]
 pub struct SceneRolling {
     /// Creepage along x and y.
@@ -217,6 +230,14 @@ impl HalfSpaceScene {
         Self::from_json(&String::from_utf8_lossy(&bytes), path)
     }
 
+    /// Whether a file holds such a scene, right or wrong: an object with a `half_space`.
+    #[must_use]
+    pub fn is_in(path: &Path) -> bool {
+        let text = read("scene", path).unwrap_or_default();
+        let value: serde_json::Value = serde_json::from_slice(&text).unwrap_or_default();
+        value.get("half_space").is_some()
+    }
+
     /// Checks every value, reads the height maps and makes the operator.
     ///
     /// # Errors
@@ -232,7 +253,7 @@ impl HalfSpaceScene {
 
     fn build(&self) -> Result<HalfSpaceHistory, Error> {
         let SceneHalfSpace { cells, size, .. } = self.half_space;
-        let spacing = [0, 1].map(|axis| size[axis] / cells[axis] as f64);
+        let spacing = [0, 1].map(|axis| size[axis] / cells[axis].max(1) as f64);
         let grid = Grid::new(cells, spacing)?;
         let half = |half: SceneHalf| ElasticHalf {
             young: half.young,
@@ -249,6 +270,13 @@ impl HalfSpaceScene {
         );
         let operator = Arc::new(HalfSpace::new(grid, surroundings, material, other)?);
         let steps = self.drives()?;
+        if self.rolling.is_some() && steps.iter().any(|step| step.1 != Drag::Shift([0.0; 2])) {
+            return Err(Error::NotAccepted {
+                place: "rolling".to_owned(),
+                found: "a shift or a force beside it".to_owned(),
+                accepted: "creepage and spin alone, which take their place".to_owned(),
+            });
+        }
         let gap = self.gap(&grid)?;
         let problem = HalfSpaceProblem::new(operator, gap, &[self.friction], steps[0].0)?;
         for (press, drag) in &steps {
@@ -266,7 +294,7 @@ impl HalfSpaceScene {
     }
 
     /// What presses and drags in every step.
-    fn drives(&self) -> Result<Vec<(Press, Drag)>, Error> {
+    pub(crate) fn drives(&self) -> Result<Vec<(Press, Drag)>, Error> {
         let mut now = (None, Drag::Shift([0.0; 2]));
         let mut found = Vec::new();
         let drive = SceneDrive {

@@ -263,7 +263,7 @@ impl SceneLoad {
 }
 
 /// Force, moment and place of a load that is spread.
-fn wrench(
+pub(super) fn wrench(
     place: &str,
     [force, moment, on]: [Option<&[f64]>; 3],
     model: Model,

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
-use super::read;
+use super::{read, selection};
 use crate::body::{CellKind, Mesh, box_mesh, graded, rectangle};
 use crate::error::Error;
-use crate::mesh_file::gmsh;
+use crate::mesh_file;
 
 /// Most nodes of all bodies together: beyond it a slip of the pen would fill the memory.
 pub(super) const MOST_NODES: usize = 20_000_000;
@@ -18,13 +18,22 @@ pub(super) const MOST_NODES: usize = 20_000_000;
 #[cfg_attr(feature = "cli", schemars(untagged, deny_unknown_fields))]
 #[serde(untagged)]
 pub enum MeshSource {
-    /// A Gmsh file.
+    /// A file of Gmsh (MSH 2.2 or 4.1), VTK (`.vtu`) or Abaqus (`.inp`, of which only the mesh is read).
     File {
-        /// MSH 2.2 or 4.1, ASCII or binary, relative to the scene's folder.
+        /// Its name, relative to the scene's folder.
         file: PathBuf,
         /// Factor on all positions, such as 0.001 for a mesh in mm; 1 when left out.
         #[cfg_attr(feature = "cli", schemars(default = "one", extend("exclusiveMinimum" = 0)))]
         scale: f64,
+        /// Groups of cells that the body is made of, as of one part of an assembly; all cells when left out.
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        #[cfg_attr(feature = "cli", schemars(default))]
+        groups: Vec<String>,
+        /// Group of cells that is cut free from all others, so that it can touch them: nodes that both have
+        /// are doubled, and the facets between them become groups `NAME.own` and `NAME.other`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "cli", schemars(default))]
+        split: Option<String>,
     },
     /// A rectangle of quadrilaterals or triangles.
     Rectangle {
@@ -118,6 +127,14 @@ pub enum SolidCell {
     Hex27,
     /// Quadratic tetrahedra.
     Tet10,
+    /// Linear prisms, two per block along z.
+    Prism6,
+    /// Quadratic prisms.
+    Prism15,
+    /// Linear pyramids, six per block.
+    Pyramid5,
+    /// Quadratic pyramids.
+    Pyramid13,
 }
 
 impl From<Mesh> for MeshSource {
@@ -155,6 +172,8 @@ fn uniform<const AXES: usize>() -> [f64; AXES] {
 struct Keys {
     file: Option<PathBuf>,
     scale: Option<f64>,
+    groups: Option<Vec<String>>,
+    split: Option<String>,
     rectangle: Option<Rectangle>,
     r#box: Option<BoxMesh>,
 }
@@ -162,15 +181,21 @@ struct Keys {
 impl<'de> Deserialize<'de> for MeshSource {
     fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
         let keys = Keys::deserialize(source)?;
-        match (keys.file, keys.scale, keys.rectangle, keys.r#box) {
-            (Some(file), scale, None, None) => Ok(Self::File {
+        let of_file = keys.scale.is_some() || keys.groups.is_some() || keys.split.is_some();
+        match (keys.file, of_file, keys.rectangle, keys.r#box) {
+            (Some(_), ..) if keys.groups.as_ref().is_some_and(Vec::is_empty) => Err(
+                de::Error::custom("expected at least one group of cells in `groups`"),
+            ),
+            (Some(file), _, None, None) => Ok(Self::File {
                 file,
-                scale: scale.unwrap_or(one()),
+                scale: keys.scale.unwrap_or(one()),
+                groups: keys.groups.unwrap_or_default(),
+                split: keys.split,
             }),
-            (None, None, Some(rectangle), None) => Ok(Self::Rectangle { rectangle }),
-            (None, None, None, Some(solid)) => Ok(Self::Box { solid }),
+            (None, false, Some(rectangle), None) => Ok(Self::Rectangle { rectangle }),
+            (None, false, None, Some(solid)) => Ok(Self::Box { solid }),
             _ => Err(de::Error::custom(
-                "expected exactly one of `file` (with or without `scale`), `rectangle` and `box`",
+                "expected exactly one of `file` (with or without `scale`, `groups` and `split`), `rectangle` and `box`",
             )),
         }
     }
@@ -180,8 +205,19 @@ impl MeshSource {
     /// Reads, generates or copies the mesh, of at most `room` nodes; files are relative to `folder`.
     pub(super) fn mesh(&self, place: &str, folder: &Path, room: usize) -> Result<Mesh, Error> {
         match self {
-            Self::File { file, scale } => {
-                let mesh = from_file(place, &folder.join(file), *scale)?;
+            Self::File {
+                file,
+                scale,
+                groups,
+                split,
+            } => {
+                let mut mesh = from_file(place, &folder.join(file), *scale)?;
+                if !groups.is_empty() {
+                    mesh = part(&mesh, &format!("{place}.groups"), groups)?;
+                }
+                if let Some(group) = split {
+                    mesh.split(group).map_err(|error| error.within(place))?;
+                }
                 let place = || format!("{place}.file");
                 check_room(
                     place,
@@ -211,6 +247,10 @@ impl MeshSource {
                     SolidCell::Hex20 => CellKind::Hex20,
                     SolidCell::Hex27 => CellKind::Hex27,
                     SolidCell::Tet10 => CellKind::Tet10,
+                    SolidCell::Prism6 => CellKind::Prism6,
+                    SolidCell::Prism15 => CellKind::Prism15,
+                    SolidCell::Pyramid5 => CellKind::Pyramid5,
+                    SolidCell::Pyramid13 => CellKind::Pyramid13,
                 };
                 let axes = [("x", shape.x), ("y", shape.y), ("z", shape.z)];
                 let [xs, ys, zs] = coordinates(&place, axes, shape.cells, shape.grading, room)?;
@@ -246,6 +286,15 @@ fn check_given(place: &str, mesh: &Mesh) -> Result<(), Error> {
     Ok(())
 }
 
+/// The cells of some groups.
+fn part(mesh: &Mesh, place: &str, groups: &[String]) -> Result<Mesh, Error> {
+    let mut cells = Vec::new();
+    for (at, group) in groups.iter().enumerate() {
+        cells.extend_from_slice(selection::cells(mesh, &format!("{place}[{at}]"), group)?);
+    }
+    Ok(mesh.part(&cells))
+}
+
 fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {
     if !(scale > 0.0 && scale.is_finite()) {
         return Err(Error::OutOfRange {
@@ -256,8 +305,10 @@ fn from_file(place: &str, path: &Path, scale: f64) -> Result<Mesh, Error> {
     }
     let place = format!("{place}.file");
     let bytes = read(&place, path)?;
-    let mut mesh =
-        gmsh::parse(&bytes, &path.display().to_string()).map_err(|error| error.within(place))?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let include = |name: &str| read("*INCLUDE", &folder.join(name));
+    let mut mesh = mesh_file::parse(&bytes, &path.display().to_string(), &include)
+        .map_err(|error| error.within(place))?;
     for position in &mut mesh.nodes {
         *position = position.map(|coordinate| coordinate * scale);
     }

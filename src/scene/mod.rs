@@ -2,8 +2,9 @@
 //!
 //! ```text
 //! bodies    mesh, model, materials, supports, loads, springs
-//! contacts  group of surface facets, rigid obstacle, friction, gap
-//! steps     instants, factors of loads and supports, motions of obstacles, gaps
+//! rigid_bodies  surfaces, motion given or free under forces
+//! contacts  group of surface facets, what it may touch, friction or another law, gap
+//! steps     instants, factors of loads, supports and rigid bodies, motions of obstacles, gaps
 //! settings  tolerance, max_sweeps, time_limit
 //! ```
 //!
@@ -17,21 +18,29 @@ mod contact;
 mod elastic_body;
 mod field;
 mod foundation;
+mod general_contact;
 mod half_space;
 mod heat;
 mod height_map;
 mod json;
+mod law;
 mod load;
 mod load_keys;
+mod local_axes;
+mod material;
 mod mesh_source;
 mod nodal_table;
+mod obstacle;
 mod remeshed;
+mod rigid_body;
 mod saved_state;
 mod selection;
 mod spelling;
 mod steps;
 mod support;
 mod table;
+mod ties;
+mod transverse;
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -40,30 +49,39 @@ use serde::{Deserialize, Serialize};
 
 use crate::alternation::{Interrupt, Settings};
 use crate::body::Body;
-use crate::contact::ContactPair;
+use crate::contact::{ContactPair, RigidBody};
 use crate::error::Error;
 
 pub use bare::BareProblem;
-pub use contact::{SceneContact, SceneObstacle, SceneSurface};
-pub use elastic_body::{SceneBody, SceneMaterial, SceneModel};
-pub use field::{SceneAffine, SceneAffineVector, SceneSpin, SceneTurn};
+pub use contact::{SceneContact, SceneSurface};
+pub use elastic_body::{SceneBody, SceneFormulation, SceneModel};
+pub use field::{SceneAffine, SceneAffineVector, SceneLine, SceneSpin, SceneTurn};
 pub use foundation::SceneFoundation;
+pub use general_contact::SceneGeneralContact;
 pub use half_space::{
     HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
     SceneSurfaceShape, SceneSurroundings,
 };
 pub use heat::{NodalFile, SceneTemperature};
+pub use law::{NotConvex, SceneCompliance, SceneFrictionTable, SceneLaw};
 pub use load::SceneLoad;
+pub use local_axes::SceneAxis;
+pub use material::{SceneAxes, SceneMaterial, SceneOrthotropic};
 pub use mesh_source::{BoxMesh, MeshSource, PlaneCell, Rectangle, SolidCell};
+pub use obstacle::SceneObstacle;
+pub use rigid_body::SceneRigidBody;
 pub use saved_state::SavedState;
 pub(crate) use saved_state::{Exact, Fingerprint, exact, plain};
 pub use steps::SceneSteps;
 pub(crate) use steps::{LoadHistory, driven};
 pub use support::SceneSupport;
+pub use ties::{ScenePeriodic, SceneRigidGroup};
+pub use transverse::{CylindricalAxis, SceneAlong, SceneTransverse};
 
 pub(crate) use spelling::nearest;
 
 use mesh_source::MOST_NODES;
+use rigid_body::Resolved;
 
 /// Elastic bodies that may touch rigid obstacles and each other, as the user states it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -71,11 +89,11 @@ use mesh_source::MOST_NODES;
 #[serde(deny_unknown_fields, expecting = "a scene")]
 pub struct Scene {
     /// Where editors find the schema of scenes; not read.
-    #[serde(default, rename = "$schema")]
+    #[serde(default, rename = "$schema", skip_serializing_if = "Option::is_none")]
     pub schema: Option<String>,
     /// Anything the author wants to say; not read.
-    #[serde(default)]
-    pub comment: Option<String>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub comment: Option<SceneComment>,
     /// Shown in reports.
     #[serde(default)]
     pub title: String,
@@ -86,9 +104,15 @@ pub struct Scene {
     /// The elastic bodies, all in 2D or all in 3D; names differ.
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub bodies: Vec<SceneBody>,
-    /// Where the bodies may touch obstacles or each other; at least one.
-    #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
+    /// Bodies without compliance; names differ, also from those of the elastic bodies.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rigid_bodies: Vec<SceneRigidBody>,
+    /// Where the bodies may touch obstacles or each other; at least one, unless there is `general_contact`.
+    #[serde(default)]
     pub contacts: Vec<SceneContact>,
+    /// Contact between all bodies whose skins face each other.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub general_contact: Option<SceneGeneralContact>,
     /// A load history; left out, there is one state under the loads as they stand.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<SceneSteps>,
@@ -99,6 +123,17 @@ pub struct Scene {
     /// its folder. Empty for a scene built in code.
     #[serde(skip)]
     pub source: PathBuf,
+}
+
+/// What the author of a scene wants to say.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[serde(untagged, expecting = "text, or a list of lines of text")]
+pub enum SceneComment {
+    /// One line.
+    Line(String),
+    /// Several.
+    Lines(Vec<String>),
 }
 
 /// Settings of the solve; left out, the defaults hold.
@@ -133,6 +168,8 @@ pub struct Mechanics {
     pub bodies: Vec<Body>,
     /// What may touch what.
     pub contacts: Vec<ContactPair>,
+    /// Rigid bodies that carry the obstacles of some contacts.
+    pub rigid_bodies: Vec<RigidBody>,
     /// How loads, supports and obstacles change; no instants where the scene has no steps.
     pub history: LoadHistory,
     /// Settings of the outer loop.
@@ -279,7 +316,7 @@ impl Scene {
 
     fn build(&self) -> Result<Mechanics, Error> {
         let settings = self.settings.resolve()?;
-        if self.contacts.is_empty() {
+        if self.contacts.is_empty() && self.general_contact.is_none() {
             return Err(Error::Empty {
                 place: "contacts".to_owned(),
             });
@@ -293,21 +330,64 @@ impl Scene {
             bodies.push(body);
         }
         check_together(&bodies)?;
-        let contacts = self.contacts.iter().enumerate();
-        let contacts = contacts
-            .map(|(at, contact)| contact.resolve(&format!("contacts[{at}]"), &bodies))
-            .collect::<Result<Vec<_>, _>>()?;
+        let mut rigid = self.resolve_rigid(folder, &bodies)?;
+        let mut contacts = Vec::with_capacity(self.contacts.len());
+        for (at, contact) in self.contacts.iter().enumerate() {
+            let place = format!("contacts[{at}]");
+            contacts.push(contact.resolve(&place, folder, &bodies, &rigid)?);
+            if let Some(name) = &contact.rigid_body {
+                let number = contact.rigid_number(&place, name, &rigid)?;
+                rigid[number].body.pairs.push(at);
+            }
+        }
+        let rigid_bodies: Vec<RigidBody> = rigid.into_iter().map(|rigid| rigid.body).collect();
+        check_touched(&rigid_bodies)?;
+        if let Some(general) = &self.general_contact {
+            let more = general.pairs(&mut bodies, &contacts)?;
+            contacts.extend(more);
+        }
         let history = match &self.steps {
-            Some(steps) => steps.resolve(&bodies, &contacts)?,
+            Some(steps) => steps.resolve(&bodies, &contacts, &rigid_bodies)?,
             None => LoadHistory::default(),
         };
         Ok(Mechanics {
             bodies,
             contacts,
+            rigid_bodies,
             history,
             settings,
             notes,
         })
+    }
+
+    fn resolve_rigid(&self, folder: &Path, bodies: &[Body]) -> Result<Vec<Resolved>, Error> {
+        let mut names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
+        let mut rigid = Vec::with_capacity(self.rigid_bodies.len());
+        for (at, stated) in self.rigid_bodies.iter().enumerate() {
+            let place = format!("rigid_bodies[{at}]");
+            if names.contains(&stated.name.as_str()) {
+                return Err(Error::NotAccepted {
+                    place: format!("{place}.name"),
+                    found: format!("`{}` again", stated.name),
+                    accepted: "a name of its own for every body".to_owned(),
+                });
+            }
+            names.push(&stated.name);
+            rigid.push(stated.resolve(&place, folder, bodies)?);
+        }
+        Ok(rigid)
+    }
+}
+
+/// Refuses a rigid body that no contact names.
+fn check_touched(rigid: &[RigidBody]) -> Result<(), Error> {
+    match rigid.iter().find(|body| body.pairs.is_empty()) {
+        None => Ok(()),
+        Some(body) => Err(Error::NotAccepted {
+            place: body.place.clone(),
+            found: format!("`{}`, which no contact names", body.name),
+            accepted: "a rigid body that some contact has as its `rigid_body`".to_owned(),
+        }),
     }
 }
 
@@ -370,6 +450,13 @@ fn seconds(limit: f64) -> Result<Duration, Error> {
 #[must_use]
 pub fn schema() -> serde_json::Value {
     schemars::schema_for!(Scene).to_value()
+}
+
+/// The same of a scene of half-spaces.
+#[cfg(feature = "cli")]
+#[must_use]
+pub fn half_space_schema() -> serde_json::Value {
+    schemars::schema_for!(HalfSpaceScene).to_value()
 }
 
 /// Reads a whole file. Folders and pipes are refused: a pipe could hold the program forever; what
@@ -483,13 +570,9 @@ mod tests {
         let material = |group: &str, young| SceneMaterial::new(young, 0.0).of(group);
         let scene = Scene {
             bodies: vec![SceneBody {
-                name: "bar".into(),
-                mesh: MeshSource::Given(mesh),
                 model: Some(SceneModel::PlaneStress { thickness: 0.1 }),
                 materials: vec![material("soft", 1.0), material("stiff", 2.0)],
-                supports: vec![],
-                loads: vec![],
-                foundation: vec![],
+                ..SceneBody::new("bar", mesh)
             }],
             contacts: vec![SceneContact {
                 group: "bottom".into(),
@@ -498,10 +581,8 @@ mod tests {
                     center: vec![0.0, -2.0],
                     radius: 1.5,
                 }),
-                against: None,
-                friction: 0.0,
-                rounded: None,
-                gap: 0.0,
+                friction: Some(0.0),
+                ..SceneContact::default()
             }],
             ..Scene::default()
         };
@@ -549,7 +630,7 @@ mod tests {
             let keys = of["properties"].as_object().unwrap().keys().cloned();
             keys.collect::<Vec<_>>().join(" ")
         };
-        let expected = "$schema bodies comment contacts settings steps title units";
+        let expected = "$schema bodies comment contacts general_contact rigid_bodies settings steps title units";
         assert_eq!(keys(&schema), expected);
         assert_eq!(schema["additionalProperties"], false);
         let loads = schema["$defs"]["SceneLoad"]["anyOf"].as_array().unwrap();
@@ -577,6 +658,6 @@ mod tests {
         );
         let meshes = schema["$defs"]["MeshSource"]["anyOf"].as_array().unwrap();
         let of_meshes: Vec<_> = meshes.iter().map(keys).collect();
-        assert_eq!(of_meshes, ["file scale", "rectangle", "box"]);
+        assert_eq!(of_meshes, ["file groups scale split", "rectangle", "box"]);
     }
 }

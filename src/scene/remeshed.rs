@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::mesh_source::MOST_NODES;
 use super::{MeshSource, Scene};
 use crate::error::Error;
 
@@ -20,6 +21,29 @@ impl Scene {
             }
         }
         Some(scene)
+    }
+
+    /// The scene with every cell of every mesh split into halves along each axis, on the same nodes and
+    /// those between them: curved cells stay curved, and flat ones stay flat.
+    ///
+    /// # Errors
+    ///
+    /// Those of reading or generating its meshes.
+    pub fn split(&self) -> Result<Self, Error> {
+        let folder = self.source.parent().unwrap_or(Path::new(""));
+        let mut scene = self.clone();
+        let bodies = scene.bodies.iter_mut().enumerate();
+        bodies.into_iter().try_for_each(|(at, body)| {
+            let place = format!("bodies[{at}].mesh");
+            let mesh = body.mesh.mesh(&place, folder, MOST_NODES);
+            let mesh = mesh.map_err(|error| self.locate(error))?;
+            let refined = mesh
+                .refined()
+                .map_err(|error| self.locate(error.within(&place)))?;
+            body.mesh = MeshSource::Given(refined);
+            Ok(())
+        })?;
+        Ok(scene)
     }
 
     /// The scene with this mesh file, relative to the working folder, in place of its one.
@@ -93,7 +117,9 @@ mod tests {
             *mesh,
             MeshSource::File {
                 file: path,
-                scale: 2.0
+                scale: 2.0,
+                split: None,
+                groups: Vec::new(),
             }
         );
         for meshes in [&[GRID][..], &[FILE, FILE]] {

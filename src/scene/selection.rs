@@ -30,13 +30,7 @@ pub(super) fn group<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a G
             known: known.cloned().collect(),
         });
     };
-    let empty = match group {
-        Group::Cells(members) => members.is_empty(),
-        Group::Facets(members) => members.is_empty(),
-        Group::Edges(members) => members.is_empty(),
-        Group::Points(members) => members.is_empty(),
-    };
-    if empty {
+    if group.is_empty() {
         return Err(Error::Empty {
             place: format!("{place}: group `{name}`"),
         });
@@ -44,19 +38,48 @@ pub(super) fn group<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a G
     Ok(group)
 }
 
-fn wrong_kind(mesh: &Mesh, place: &str, name: &str, group: &Group, accepted: &str) -> Error {
-    let found = match group {
+fn kind_of(mesh: &Mesh, group: &Group) -> &'static str {
+    match group {
         Group::Cells(_) => "cells",
         Group::Facets(_) if mesh.dimension == 2 => "surface facets (lines)",
         Group::Facets(_) => "surface facets",
         Group::Edges(_) => "edges (lines in 3D)",
         Group::Points(_) => "points",
-    };
+    }
+}
+
+fn wrong_kind(mesh: &Mesh, place: &str, name: &str, group: &Group, accepted: &str) -> Error {
+    let found = kind_of(mesh, group);
     Error::NotAccepted {
         place: place.to_owned(),
         found: format!("group `{name}` of {found}"),
         accepted: format!("a group of {accepted}"),
     }
+}
+
+/// A group of the members of several, each once, all of one kind.
+pub(super) fn union(mesh: &Mesh, place: &str, names: &[String]) -> Result<Group, Error> {
+    let mut union: Option<Group> = None;
+    for (at, name) in names.iter().enumerate() {
+        let place = format!("{place}[{at}]");
+        let found = group(mesh, &place, name)?;
+        let Some(so_far) = &mut union else {
+            union = Some(found.clone());
+            continue;
+        };
+        if !so_far.append(found) {
+            let accepted = kind_of(mesh, so_far);
+            return Err(wrong_kind(mesh, &place, name, found, accepted));
+        }
+    }
+    let mut union = union.ok_or_else(|| Error::Empty {
+        place: place.to_owned(),
+    })?;
+    if let Group::Cells(members) | Group::Points(members) = &mut union {
+        members.sort_unstable();
+        members.dedup();
+    }
+    Ok(union)
 }
 
 /// Cells of a group.

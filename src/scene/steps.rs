@@ -30,9 +30,9 @@ use serde::{Deserialize, Serialize};
 
 use super::spelling;
 use super::table::Table;
-use crate::body::Body;
+use crate::body::{Body, Load, Source, Tie};
 use crate::condensation::Driven;
-use crate::contact::{ContactPair, Opposite};
+use crate::contact::{ContactPair, Opposite, RigidBody};
 use crate::error::{Error, check_finite};
 
 /// A load history, quasi-static: one state per instant, each with the law of friction on the
@@ -50,8 +50,10 @@ pub struct SceneSteps {
     /// Instants at which a state is solved, rising; any parameter of the history will do.
     #[cfg_attr(feature = "cli", schemars(length(min = 1)))]
     pub at: Vec<f64>,
-    /// By what a load or a support is multiplied: rows `[instant, factor]`, rising, under its
-    /// place, such as `bodies[0].loads[1]` or `bodies[0].supports[0]`.
+    /// By what a load, a support, or a component of a rigid body is multiplied: rows `[instant, factor]`, rising,
+    /// under its place, such as `bodies[0].loads[1]`, `bodies[0].supports[0]` or `rigid_bodies[0].force[1]`; of a
+    /// rigid group its given motion, `bodies[0].rigid_groups[0].motion`, and force and moment,
+    /// `bodies[0].rigid_groups[0].load`.
     #[serde(default)]
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or
@@ -79,7 +81,7 @@ pub struct SceneSteps {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct LoadHistory {
     instants: Vec<f64>,
-    factors: Vec<(Driven, Table)>,
+    factors: Vec<(String, Driven, Table)>,
     obstacles: Vec<(usize, Table)>,
     gaps: Vec<(usize, Table)>,
     /// Stated gap per contact, in metre.
@@ -94,6 +96,7 @@ impl SceneSteps {
         &self,
         bodies: &[Body],
         contacts: &[ContactPair],
+        rigid: &[RigidBody],
     ) -> Result<LoadHistory, Error> {
         let place = "steps.at".to_owned();
         check_finite(&place, &self.at)?;
@@ -121,7 +124,7 @@ impl SceneSteps {
             resolution: self.resolve,
             ..LoadHistory::default()
         };
-        let known = driven(bodies);
+        let known = driven(bodies, rigid);
         for (name, rows) in &self.factors {
             let place = format!("steps.factors.{name}");
             let known_names = known.iter().map(|(name, _)| name.as_str());
@@ -130,12 +133,13 @@ impl SceneSteps {
                 .find(|(known, _)| known == name)
                 .ok_or_else(|| unknown(&place, "load or support", name, known_names))?;
             let factor = Table::new(&place, rows, 1)?;
-            history.factors.push((*driven, factor));
+            history.factors.push((name.clone(), *driven, factor));
         }
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let obstacles = contacts.iter().enumerate();
         let obstacles: Vec<_> = obstacles
             .filter(|(_, pair)| matches!(pair.opposite, Opposite::Obstacle(_)))
+            .filter(|(at, _)| !rigid.iter().any(|body| body.pairs.contains(at)))
             .collect();
         for (name, rows) in &self.obstacles {
             let place = format!("steps.obstacles.{name}");
@@ -175,24 +179,49 @@ fn gap_table(
     Ok((contact, Table::new(&place, rows, 1)?))
 }
 
-/// Every load and support of bodies, by its place in the scene, such as `bodies[0].loads[1]`.
+/// Every load and support of bodies and component of rigid ones, by its place in the scene, such as
+/// `bodies[0].loads[1]`.
 #[must_use]
-pub(crate) fn driven(bodies: &[Body]) -> Vec<(String, Driven)> {
+pub(crate) fn driven(bodies: &[Body], rigid: &[RigidBody]) -> Vec<(String, Driven)> {
     let mut places = Vec::new();
     for (body, of) in bodies.iter().enumerate() {
-        let loads = (0..of.loads.len()).map(|index| Driven::Load { body, index });
-        let supports = (0..of.supports.len()).map(|index| Driven::Support { body, index });
-        places.extend(loads.chain(supports).map(|driven| (place(driven), driven)));
+        places.extend(of.loads.iter().enumerate().map(|(index, load)| {
+            let place = match load {
+                Load::AtReference { place, .. } => format!("{place}.load"),
+                _ => format!("bodies[{body}].loads[{index}]"),
+            };
+            (place, Driven::Load { body, index })
+        }));
+        let supports = 0..of.supports.len();
+        places.extend(supports.map(|index| {
+            let place = format!("bodies[{body}].supports[{index}]");
+            (place, Driven::Support { body, index })
+        }));
+        places.extend(
+            of.ties
+                .iter()
+                .enumerate()
+                .filter_map(|(index, tie)| match tie {
+                    Tie::Rigid(group) => {
+                        let place = format!("{}.motion", group.place);
+                        Some((place, Driven::Motion { body, index }))
+                    }
+                    Tie::Pairs(_) => None,
+                }),
+        );
+    }
+    let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
+    for (body, of) in rigid.iter().enumerate() {
+        let lives = |k: &usize| dimension == 3 || [0, 1, 5].contains(k);
+        let components = (0..6).filter(lives);
+        places.extend(components.map(|component| {
+            (
+                of.component_place(component, dimension),
+                Driven::Rigid { body, component },
+            )
+        }));
     }
     places
-}
-
-/// Where a scene states it.
-fn place(driven: Driven) -> String {
-    match driven {
-        Driven::Load { body, index } => format!("bodies[{body}].loads[{index}]"),
-        Driven::Support { body, index } => format!("bodies[{body}].supports[{index}]"),
-    }
 }
 
 fn unknown<'a>(
@@ -217,17 +246,28 @@ impl LoadHistory {
         &self.instants
     }
 
-    /// The loads and supports that have a table.
+    /// The loads, supports and components that have a table.
     #[must_use]
     pub fn driven(&self) -> Vec<Driven> {
-        self.factors.iter().map(|(driven, _)| *driven).collect()
+        self.factors.iter().map(|(_, driven, _)| *driven).collect()
     }
 
     /// Their factors at an instant.
     #[must_use]
     pub fn factors(&self, instant: f64) -> Vec<f64> {
         let tables = self.factors.iter();
-        tables.map(|(_, table)| table.at(instant)[0]).collect()
+        tables.map(|(.., table)| table.at(instant)[0]).collect()
+    }
+
+    /// The factor of what a body's equation comes from, at an instant.
+    pub(crate) fn factor(&self, body: usize, by: Source, instant: f64) -> f64 {
+        let driven = match by {
+            Source::Axis => return 1.0,
+            Source::Support(index) => Driven::Support { body, index },
+            Source::Tie(index) => Driven::Motion { body, index },
+        };
+        let found = self.factors.iter().find(|(_, other, _)| *other == driven);
+        found.map_or(1.0, |(.., table)| table.at(instant)[0])
     }
 
     /// By how much halving a step may change it; none where steps are not halved.
@@ -265,7 +305,7 @@ impl LoadHistory {
     #[must_use]
     pub fn values(&self, instant: f64) -> Vec<(String, f64)> {
         let factors = self.factors.iter();
-        let factors = factors.map(|(driven, table)| (place(*driven), table.at(instant)[0]));
+        let factors = factors.map(|(name, _, table)| (name.clone(), table.at(instant)[0]));
         let obstacles = self.obstacles.iter().flat_map(|(contact, table)| {
             let axes = ["x", "y", "z"].into_iter().zip(table.at(instant));
             axes.map(move |(axis, value)| (format!("contacts[{contact}].{axis}"), value))

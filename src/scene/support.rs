@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
-use super::field::SceneTurn;
+use super::field::{SceneTurn, finite};
+use super::local_axes::{self, SceneAxis};
 use super::selection;
 use crate::body::{Mesh, Model, Support};
 use crate::error::{Error, check_length};
@@ -29,6 +30,36 @@ pub enum SceneSupport {
         /// A small rotation, of the components that `displacement` gives.
         turn: SceneTurn,
     },
+    /// All nodes of a group of facets, along its outward normal, as on an inclined plane of symmetry: at each
+    /// node the mean of the facets around it, by area. Across it they are free.
+    Normal {
+        /// Group of surface facets.
+        group: String,
+        /// Displacement outward, in the unit of length.
+        normal: f64,
+    },
+    /// All nodes of a group, in cylindrical axes.
+    Around {
+        /// Group of cells, facets, edges or points.
+        group: String,
+        /// The axis; no node of the group is on it.
+        axis: SceneAxis,
+        /// Radial, around and, in 3D, along the axis, in the unit of length; `null` leaves the component free.
+        displacement: Vec<Option<f64>>,
+    },
+    /// Nodes along a direction; across it they are free.
+    Along {
+        /// Group of cells, facets, edges or points; this or `at`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        group: Option<String>,
+        /// Position of a node, in the unit of length; this or `group`.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        at: Option<Vec<f64>>,
+        /// The direction, of any length but zero.
+        direction: Vec<f64>,
+        /// A single entry, in the unit of length.
+        displacement: Vec<Option<f64>>,
+    },
     /// One node.
     At {
         /// Position of the node, in the unit of length.
@@ -44,31 +75,64 @@ pub enum SceneSupport {
 struct Keys {
     group: Option<String>,
     at: Option<Vec<f64>>,
-    displacement: Vec<Option<f64>>,
+    displacement: Option<Vec<Option<f64>>>,
     turn: Option<SceneTurn>,
+    normal: Option<f64>,
+    axis: Option<SceneAxis>,
+    direction: Option<Vec<f64>>,
 }
+
+/// What the keys of a support may be.
+const ACCEPTED: &str = "expected `displacement` with exactly one of `group` and `at`, and beside `group` perhaps \
+    `turn` or `axis`, beside either `direction`; or `group` with `normal`";
 
 impl<'de> Deserialize<'de> for SceneSupport {
     fn deserialize<D: Deserializer<'de>>(source: D) -> Result<Self, D::Error> {
         let keys = Keys::deserialize(source)?;
-        let displacement = keys.displacement;
-        match (keys.group, keys.at, keys.turn) {
-            (Some(group), None, None) => Ok(Self::Group {
+        keys.support().ok_or_else(|| de::Error::custom(ACCEPTED))
+    }
+}
+
+impl Keys {
+    /// The support; none if its keys do not belong together.
+    fn support(self) -> Option<SceneSupport> {
+        let local = (self.turn, self.normal, self.axis, self.direction);
+        let (group, at) = (self.group, self.at);
+        let Some(displacement) = self.displacement else {
+            return match (group, at, local) {
+                (Some(group), None, (None, Some(normal), None, None)) => {
+                    Some(SceneSupport::Normal { group, normal })
+                }
+                _ => None,
+            };
+        };
+        match (group, at, local) {
+            (Some(group), None, (None, None, None, None)) => Some(SceneSupport::Group {
                 group,
                 displacement,
             }),
-            (Some(group), None, Some(turn)) => Ok(Self::Turned {
+            (None, Some(at), (None, None, None, None)) => {
+                Some(SceneSupport::At { at, displacement })
+            }
+            (Some(group), None, (Some(turn), None, None, None)) => Some(SceneSupport::Turned {
                 group,
                 displacement,
                 turn,
             }),
-            (None, Some(at), None) => Ok(Self::At { at, displacement }),
-            (_, _, None) => Err(de::Error::custom(
-                "expected exactly one of `group` and `at`, beside `displacement`",
-            )),
-            (_, _, Some(_)) => Err(de::Error::custom(
-                "expected `group` and `displacement` beside `turn`",
-            )),
+            (Some(group), None, (None, None, Some(axis), None)) => Some(SceneSupport::Around {
+                group,
+                axis,
+                displacement,
+            }),
+            (group, at, (None, None, None, Some(direction))) if group.is_some() != at.is_some() => {
+                Some(SceneSupport::Along {
+                    group,
+                    at,
+                    direction,
+                    displacement,
+                })
+            }
+            _ => None,
         }
     }
 }
@@ -94,6 +158,36 @@ impl SceneSupport {
         }
     }
 
+    /// Displacement of a group of facets along its outward normal, in the unit of length.
+    #[must_use]
+    pub fn normal(group: &str, normal: f64) -> Self {
+        Self::Normal {
+            group: group.to_owned(),
+            normal,
+        }
+    }
+
+    /// Displacement of a group in cylindrical axes: radial, around and, in 3D, along.
+    #[must_use]
+    pub fn around(group: &str, axis: SceneAxis, displacement: &[Option<f64>]) -> Self {
+        Self::Around {
+            group: group.to_owned(),
+            axis,
+            displacement: displacement.to_vec(),
+        }
+    }
+
+    /// Displacement of a group along a direction, in the unit of length.
+    #[must_use]
+    pub fn along(group: &str, direction: &[f64], displacement: f64) -> Self {
+        Self::Along {
+            group: Some(group.to_owned()),
+            at: None,
+            direction: direction.to_vec(),
+            displacement: vec![Some(displacement)],
+        }
+    }
+
     /// The support in the terms of mechanics.
     pub(super) fn resolve(
         &self,
@@ -101,47 +195,21 @@ impl SceneSupport {
         mesh: &Mesh,
         model: Model,
     ) -> Result<Support, Error> {
-        let (nodes, stated) = match self {
-            Self::Group {
-                group,
-                displacement,
-            }
-            | Self::Turned {
-                group,
-                displacement,
-                ..
-            } => {
-                let place = format!("{place}.group");
-                (selection::nodes(mesh, &place, group)?, displacement)
-            }
-            Self::At { at, displacement } => {
-                let place = format!("{place}.at");
-                (vec![selection::node_at(mesh, &place, at)?], displacement)
-            }
-        };
-        let at = format!("{place}.displacement");
-        check_length(&at, mesh.dimension, stated.len())?;
-        let mut displacement = [None; 3];
-        displacement[..stated.len()].copy_from_slice(stated);
-        for (axis, component) in displacement.iter().enumerate() {
-            match component {
-                Some(value) if !value.is_finite() => {
-                    return Err(Error::NotFinite {
-                        place: format!("{at}[{axis}]"),
-                        value: *value,
-                    });
-                }
-                _ => {}
-            }
-        }
-        if displacement.iter().all(Option::is_none) {
-            return Err(Error::NotAccepted {
-                place: at,
-                found: "null in every component".to_owned(),
-                accepted: "at least one number".to_owned(),
+        if let Self::Normal { group, normal } = self {
+            finite(format!("{place}.normal"), *normal)?;
+            let (nodes, axes) = local_axes::normals(&format!("{place}.group"), group, mesh)?;
+            return Ok(Support {
+                place,
+                nodes,
+                displacement: [Some(*normal), None, None],
+                offsets: Vec::new(),
+                axes,
             });
         }
-        let offsets = match self {
+        let nodes = self.nodes(&place, mesh)?;
+        let positions = nodes.iter().map(|node| mesh.nodes[*node]);
+        let (mut offsets, mut axes) = (Vec::new(), Vec::new());
+        match self {
             Self::Turned { turn, .. } => {
                 let place = format!("{place}.turn");
                 if model == Model::Axisymmetric {
@@ -151,16 +219,70 @@ impl SceneSupport {
                         accepted: "none, for an axisymmetric body turns about no axis".to_owned(),
                     });
                 }
-                let positions = nodes.iter().map(|node| mesh.nodes[*node]);
-                turn.resolve(&place, mesh.dimension, positions)?
+                offsets = turn.resolve(&place, mesh.dimension, positions)?;
             }
-            _ => Vec::new(),
-        };
+            Self::Around { axis, .. } => {
+                axes = axis.around(&format!("{place}.axis"), (mesh, model), &nodes)?;
+            }
+            Self::Along { direction, .. } => {
+                let place = format!("{place}.direction");
+                axes = local_axes::from_direction(&place, direction, mesh, nodes.len())?;
+            }
+            _ => {}
+        }
         Ok(Support {
+            displacement: self.components(&place, mesh.dimension)?,
             place,
             nodes,
-            displacement,
             offsets,
+            axes,
         })
+    }
+
+    /// The supported nodes.
+    fn nodes(&self, place: &str, mesh: &Mesh) -> Result<Vec<usize>, Error> {
+        match self {
+            Self::At { at, .. } | Self::Along { at: Some(at), .. } => {
+                let node = selection::node_at(mesh, &format!("{place}.at"), at)?;
+                Ok(vec![node])
+            }
+            Self::Group { group, .. }
+            | Self::Turned { group, .. }
+            | Self::Normal { group, .. }
+            | Self::Around { group, .. }
+            | Self::Along {
+                group: Some(group), ..
+            } => selection::nodes(mesh, &format!("{place}.group"), group),
+            Self::Along { .. } => Err(Error::Empty {
+                place: format!("{place}.group"),
+            }),
+        }
+    }
+
+    /// The given components.
+    fn components(&self, place: &str, dimension: usize) -> Result<[Option<f64>; 3], Error> {
+        let (stated, count) = match self {
+            Self::Normal { .. } => (&[][..], 1),
+            Self::Along { displacement, .. } => (displacement.as_slice(), 1),
+            Self::Group { displacement, .. }
+            | Self::Turned { displacement, .. }
+            | Self::Around { displacement, .. }
+            | Self::At { displacement, .. } => (displacement.as_slice(), dimension),
+        };
+        let at = format!("{place}.displacement");
+        check_length(&at, count, stated.len())?;
+        let mut displacement = [None; 3];
+        displacement[..count].copy_from_slice(stated);
+        for (axis, component) in displacement.iter().enumerate() {
+            component.map_or(Ok(()), |value| finite(format!("{at}[{axis}]"), value))?;
+        }
+        if displacement.iter().all(Option::is_none) {
+            return Err(Error::NotAccepted {
+                place: at,
+                found: "null in every component".to_owned(),
+                accepted: "at least one number".to_owned(),
+            });
+        }
+        Ok(displacement)
     }
 }

@@ -24,6 +24,16 @@ const LOOPS: [(&str, Option<Variant>); 9] = [
     ("NSGS", Some(Variant::Nsgs)),
 ];
 
+/// Rivals, to every tolerance of the scene's friction; none of them needs nothing from the user.
+const RIVALS: [(&str, Option<Variant>); 3] = [
+    ("penalty", Some(Variant::Penalty(1.0))),
+    ("augmented Lagrangian", Some(Variant::Augmented(AUGMENTED))),
+    ("Newton from rest", Some(Variant::Newton)),
+];
+
+/// Springs of the augmented Lagrangian over the contacts' own stiffness.
+const AUGMENTED: f64 = 10.0;
+
 const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Option<Variant> {
     Some(Variant::Sweeps(Sweeps {
         mixing,
@@ -85,6 +95,7 @@ pub(super) fn all<'a>(
     let mut runs = Vec::new();
     for &tolerance in &plan.tolerances {
         runs.extend(set(Part::Loops).runs(&LOOPS, &reference, tolerance));
+        runs.extend(set(Part::Loops).runs(&RIVALS, &reference, tolerance));
     }
     let has_tangents = problem.unknowns() > problem.contacts();
     for &friction in plan.friction.iter().filter(|_| has_tangents) {
@@ -219,6 +230,10 @@ impl LoopRun<'_> {
         let start = Instant::now();
         let outcome = match self.variant {
             None => alternation::solve(problem, &settings)?,
+            // A penalty has no tolerance: it is as near as its springs are stiff.
+            Some(Variant::Penalty(_)) => {
+                Variant::Penalty(self.tolerance.sqrt().recip()).solve(problem, &settings)?
+            }
             Some(variant) => variant.solve(problem, &settings)?,
         };
         let seconds = match self.is_baseline() {

@@ -6,7 +6,12 @@
 //! (S3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
 //! (S4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
 //! (S5)  half-steps to the last digit  so that loops differ in nothing but what they are named for
+//! (S8)  half-spaces in place of the bodies: the difference of pressures as a field
+//! (S6)  penalty    springs of ε = τ^(−1/2) times a contact's own stiffness, at a tolerance τ; (S7) multipliers around them
 //! ```
+//!
+//! Panagiotopoulos' alternation on displacements poses the two half-steps in their primal form, so that its iterates are those
+//! of the plain sweeps.
 //!
 //! A mesh that is generated is refined by its number of cells; meshes from files are given as a
 //! list. Loops are compared on the finest mesh whose contact surface is small enough for all of
@@ -14,12 +19,15 @@
 //! than a quarter of a second is repeated, and the median is kept.
 
 mod exact;
+mod half_space;
 mod ladder;
 mod loops;
+mod penalty;
 mod plan;
 mod tensor_grid;
 mod variant;
 
+pub use half_space::{HalfSpaceFit, half_space_fit};
 pub use plan::{Plan, Progress};
 pub use variant::{Mixing, Sweeps, Variant};
 
@@ -33,7 +41,7 @@ use ladder::Ladder;
 ///
 /// # Errors
 ///
-/// A plan outside its ranges or one that does not fit the scene, a scene with load steps, and
+/// A plan outside its ranges or one that does not fit the scene, a scene with load steps or other laws than friction, and
 /// whatever is wrong with the scene on any of the meshes. A loop that does not converge is no
 /// error: the study says so.
 pub fn study(
@@ -42,6 +50,7 @@ pub fn study(
     mut progress: impl FnMut(Progress<'_>),
 ) -> Result<Study, Error> {
     plan.validate()?;
+    check_laws(scene)?;
     let scenes = plan.scenes(scene)?;
     let mut ladder = Ladder::default();
     let mut runs = Vec::new();
@@ -69,4 +78,19 @@ pub fn study(
         doing,
     });
     Ok(Study::new(&scene.title, &scene.units, meshes, runs))
+}
+
+/// The loops that are compared know Coulomb's law alone, with the coefficient that the study varies.
+fn check_laws(scene: &Scene) -> Result<(), Error> {
+    let mut contacts = scene.contacts.iter();
+    let other = contacts.position(|contact| contact.law.is_some() || contact.compliance.is_some());
+    match other {
+        None => Ok(()),
+        Some(at) => Err(Error::NotAccepted {
+            place: format!("contacts[{at}]"),
+            found: "a law or a compliance of its own".to_owned(),
+            accepted: "`friction` alone in a study, whose loops know Coulomb's law; `dpana solve` knows all laws"
+                .to_owned(),
+        }),
+    }
 }

@@ -3,6 +3,8 @@
 //! ```text
 //! sweeps      (H1), then t_N as it is, or part of the way, or accelerated, then (H2); full programs, no prediction
 //! full cone   (H8) with the slip of its own minimiser as shift, accelerated, until both are one
+//! penalty     springs in place of contacts (S6), and multipliers around them (S7)
+//! Newton      whole Newton steps (D4) from rest, with nothing that would catch them
 //! NSGS        Gauss–Seidel passes (D1), (D2) on all contacts: the baseline
 //! ```
 
@@ -34,6 +36,12 @@ pub enum Variant {
     Sweeps(Sweeps),
     /// Fixed point of one program over all Coulomb cones (H8).
     FullCone,
+    /// Springs of so many times the contacts' own stiffness (S6).
+    Penalty(f64),
+    /// Uzawa's iteration around such springs (S7).
+    Augmented(f64),
+    /// Generalised Newton steps from rest (Alart, Curnier): an active set without safeguards.
+    Newton,
     /// Projected block Gauss–Seidel on all contacts, the baseline.
     Nsgs,
 }
@@ -50,7 +58,7 @@ impl Variant {
     ///
     /// # Errors
     ///
-    /// Settings outside their range, a relaxation outside (0, 1], bodies that float.
+    /// Settings outside their range, a relaxation outside (0, 1], bodies that float, laws beyond Coulomb's.
     pub fn solve(self, problem: &ContactProblem, settings: &Settings) -> Result<Outcome, Error> {
         settings.validate()?;
         self.check(problem)?;
@@ -62,6 +70,12 @@ impl Variant {
             match self {
                 Self::Sweeps(sweeps) => run.sweep(sweeps)?,
                 Self::FullCone => run.full_cone(),
+                Self::Penalty(parameter) => run.penalty(parameter)?,
+                Self::Augmented(parameter) => run.augmented(parameter)?,
+                Self::Newton => {
+                    run.newton()?;
+                    run.given_up = !run.is_solved();
+                }
                 Self::Nsgs => run.pass(),
             }
             run.end(start);
@@ -77,6 +91,13 @@ impl Variant {
                 accepted: "bodies that their supports hold".to_owned(),
             });
         }
+        if problem.laws().is_some() {
+            return Err(Error::NotAccepted {
+                place: "variant".to_owned(),
+                found: "contacts with laws of their own".to_owned(),
+                accepted: "Coulomb's law alone, which the variants are compared under".to_owned(),
+            });
+        }
         match self {
             Self::Sweeps(Sweeps {
                 mixing: Mixing::Relaxed(part),
@@ -86,6 +107,15 @@ impl Variant {
                 value: part,
                 accepted: "0 < part <= 1",
             }),
+            Self::Penalty(parameter) | Self::Augmented(parameter)
+                if !(parameter > 0.0 && parameter.is_finite()) =>
+            {
+                Err(Error::OutOfRange {
+                    place: "variant: penalty".into(),
+                    value: parameter,
+                    accepted: "0 < parameter < infinity",
+                })
+            }
             _ => Ok(()),
         }
     }
@@ -114,9 +144,9 @@ pub enum Mixing {
 }
 
 /// A solve in progress.
-struct Run<'a> {
-    problem: &'a ContactProblem,
-    settings: &'a Settings,
+pub(super) struct Run<'a> {
+    pub(super) problem: &'a ContactProblem,
+    pub(super) settings: &'a Settings,
     judge: Judge<'a>,
     normal: NormalHalfStep<'a>,
     friction: FrictionHalfStep<'a>,
@@ -125,13 +155,15 @@ struct Run<'a> {
     anderson: Anderson,
     /// Shift of (H8), in metre per contact.
     shift: Vec<f64>,
-    reaction: Vec<f64>,
+    pub(super) reaction: Vec<f64>,
     verdict: Verdict,
+    /// Of (S7).
+    pub(super) softened: Option<(ContactProblem, Vec<f64>)>,
     best: (Vec<f64>, Verdict),
-    given_up: bool,
-    record: SweepRecord,
+    pub(super) given_up: bool,
+    pub(super) record: SweepRecord,
     history: Vec<SweepRecord>,
-    work: Work,
+    pub(super) work: Work,
 }
 
 impl<'a> Run<'a> {
@@ -149,6 +181,7 @@ impl<'a> Run<'a> {
             coulomb: None,
             anderson: Anderson::default(),
             shift: vec![0.0; problem.contacts()],
+            softened: None,
             best: (reaction.clone(), verdict.clone()),
             reaction,
             verdict,
@@ -159,7 +192,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn is_solved(&self) -> bool {
+    pub(super) fn is_solved(&self) -> bool {
         self.best.1.certificate.residual() <= self.settings.tolerance
     }
 
@@ -173,13 +206,16 @@ impl<'a> Run<'a> {
         self.mix(sweeps.mixing, &before);
         self.friction_half_step(sweeps.exact);
         self.measure();
-        if sweeps.finish && !self.is_solved() {
-            let found = finish(self.problem, self.settings, &self.reaction, &[])?;
-            self.record.newton_steps = found.work.newton_steps;
-            self.work.newton_steps += found.work.newton_steps;
-            self.reaction = found.reaction;
-            self.measure();
+        match sweeps.finish && !self.is_solved() {
+            true => self.newton(),
+            false => Ok(()),
         }
+    }
+
+    /// Newton steps from where the reaction is, until they lead no further.
+    fn newton(&mut self) -> Result<(), Error> {
+        let found = finish(self.problem, self.settings, &self.reaction, &[])?;
+        self.take(found);
         Ok(())
     }
 
@@ -290,7 +326,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn measure(&mut self) {
+    pub(super) fn measure(&mut self) {
         self.verdict = self.judge.measure(&self.reaction);
         if self.verdict.certificate.residual() < self.best.1.certificate.residual() {
             self.best = (self.reaction.clone(), self.verdict.clone());

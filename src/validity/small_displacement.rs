@@ -7,7 +7,7 @@
 use std::f64::consts::PI;
 
 use crate::body::{Body, Model};
-use crate::contact::{ContactNode, Obstacle, Opposite};
+use crate::contact::{ContactNode, Opposite};
 use crate::kkt::{ContactStatus, relative_displacement};
 use crate::report::{ReportParts, significant};
 
@@ -47,6 +47,18 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
             ));
         }
     }
+    let rigid = parts.rigid.bodies.iter().zip(parts.rigid.motions);
+    notes.extend(rigid.filter_map(|(body, motion)| {
+        let turned = motion.rotation.iter().fold(0.0, |size: f64, w| size.hypot(*w));
+        let degrees = turned.to_degrees();
+        (degrees > ROTATION).then(|| {
+            format!(
+                "rigid body `{}` turns by {degrees:.1} degrees: beyond small rotations, its surfaces keep the \
+                 normals that they had",
+                body.name
+            )
+        })
+    }));
     notes.extend((0..parts.pairs.len()).filter_map(|pair| slip(parts, pair)));
     notes
 }
@@ -74,8 +86,8 @@ fn slip(parts: &ReportParts<'_>, pair: usize) -> Option<String> {
 /// How far contacts of a pair may slip, and what that is; any distance along a plane.
 fn limit(parts: &ReportParts<'_>, pair: usize) -> Option<(f64, &'static str)> {
     match &parts.pairs[pair].opposite {
-        Opposite::Obstacle(Obstacle::Plane { .. }) => None,
-        Opposite::Obstacle(Obstacle::Cylinder { radius, .. } | Obstacle::Sphere { radius, .. }) => {
+        Opposite::Obstacle(obstacle) => {
+            let radius = obstacle.least_radius()?;
             Some((OF_RADIUS * radius, "a tenth of its radius"))
         }
         Opposite::Surface { .. } => {

@@ -20,6 +20,7 @@ mod hertz_sphere;
 mod incline;
 mod konter;
 mod ladder;
+mod metamorphic;
 mod mindlin_sphere;
 mod pad;
 mod scenes;
@@ -30,6 +31,7 @@ mod uniform_patch;
 mod wedge;
 
 pub use hard::{Reach, hard_cases};
+pub use metamorphic::metamorphic;
 
 use std::time::Instant;
 

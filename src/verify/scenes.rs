@@ -7,8 +7,7 @@ use crate::error::Error;
 use crate::pipeline::{Solution, solve};
 use crate::report::Report;
 use crate::scene::{
-    MeshSource, Scene, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneObstacle,
-    SceneSupport, SceneSurface,
+    Scene, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneObstacle, SceneSupport,
 };
 
 /// E = 210 GPa, ν = 0.3; in mm, N, MPa.
@@ -20,13 +19,9 @@ pub(super) const STEEL: Elastic = Elastic {
 /// A body of one material without supports; in 2D in plane strain.
 pub(super) fn body(name: &str, mesh: Mesh, material: Elastic) -> SceneBody {
     SceneBody {
-        name: name.to_owned(),
         model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
-        mesh: MeshSource::Given(mesh),
         materials: vec![SceneMaterial::new(material.young, material.poisson)],
-        supports: Vec::new(),
-        loads: Vec::new(),
-        foundation: Vec::new(),
+        ..SceneBody::new(name, mesh)
     }
 }
 
@@ -48,7 +43,7 @@ pub(super) fn on(obstacle: SceneObstacle, body: SceneBody, group: &str, friction
         contacts: vec![SceneContact {
             group: group.to_owned(),
             obstacle: Some(obstacle),
-            friction,
+            friction: Some(friction),
             ..SceneContact::default()
         }],
         ..Scene::default()
@@ -65,19 +60,8 @@ pub(super) fn plane(normal: &[f64]) -> SceneObstacle {
 
 /// Two bodies; the group of the first carries the contacts with that of the second.
 pub(super) fn pair(bodies: [SceneBody; 2], groups: [&str; 2], friction: f64) -> Scene {
-    let [own, other] = groups.map(str::to_owned);
-    let contact = SceneContact {
-        body: Some(bodies[0].name.clone()),
-        group: own,
-        obstacle: None,
-        against: Some(SceneSurface {
-            body: Some(bodies[1].name.clone()),
-            group: other,
-        }),
-        friction,
-        rounded: None,
-        gap: 0.0,
-    };
+    let [own, other] = [0, 1].map(|side| [bodies[side].name.as_str(), groups[side]]);
+    let contact = SceneContact::between(own, other, friction);
     Scene {
         bodies: bodies.to_vec(),
         contacts: vec![contact],

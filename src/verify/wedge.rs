@@ -7,7 +7,7 @@ use crate::alternation::Status;
 use crate::body::{CellKind, graded, rectangle};
 use crate::closed_forms::wedge_pull;
 use crate::error::Error;
-use crate::pipeline::limit;
+use crate::pipeline::rigid_limit;
 use crate::report::{Beyond, Criterion, VerifiedQuantity};
 use crate::scene::{Scene, SceneLoad};
 
@@ -48,7 +48,7 @@ fn scene(friction: f64, cells: usize, pull: f64) -> Result<Scene, Error> {
 
 /// The limit that was found for the pull, and whether the judge certified it.
 fn found(friction: f64, cells: usize) -> Result<(f64, bool), Error> {
-    let limits = limit(&scene(friction, cells, 1.0)?)?;
+    let limits = rigid_limit(&scene(friction, cells, 1.0)?)?;
     Ok(match limits.loads.last().map(|load| &load.beyond) {
         Some(Beyond::Grows {
             factor, certified, ..

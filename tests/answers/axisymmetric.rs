@@ -15,7 +15,7 @@ const PLANE_KINDS: [CellKind; 5] = [
     CellKind::Quad9,
 ];
 
-fn with_meshes(scene: &Value, meshes: Vec<Mesh>) -> Scene {
+pub(crate) fn with_meshes(scene: &Value, meshes: Vec<Mesh>) -> Scene {
     let mut scene = Scene::from_json(&scene.to_string(), "").unwrap();
     for (body, mesh) in scene.bodies.iter_mut().zip(meshes) {
         body.mesh = MeshSource::Given(mesh);
@@ -23,7 +23,7 @@ fn with_meshes(scene: &Value, meshes: Vec<Mesh>) -> Scene {
     scene
 }
 
-fn certified(scene: &Scene) -> (Solution, Report) {
+pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
     let solution = solve(scene).unwrap();
     assert_eq!(solution.status(), Status::Certified);
     let report = solution.report().unwrap();
@@ -32,7 +32,7 @@ fn certified(scene: &Scene) -> (Solution, Report) {
 
 /// Coordinates from 0 to `end` whose first cells have the size `fine` up to `even`, then each is a
 /// fifth larger than the one before.
-fn growing(fine: f64, even: f64, end: f64) -> Vec<f64> {
+pub(crate) fn growing(fine: f64, even: f64, end: f64) -> Vec<f64> {
     let count = (even / fine).round() as usize;
     let mut lines: Vec<f64> = (0..=count)
         .map(|k| k as f64 * even / count as f64)
@@ -48,7 +48,7 @@ fn growing(fine: f64, even: f64, end: f64) -> Vec<f64> {
 }
 
 /// From `−end` up to 0.
-fn falling(lines: &[f64]) -> Vec<f64> {
+pub(crate) fn falling(lines: &[f64]) -> Vec<f64> {
     lines.iter().rev().map(|y| 0.0 - y).collect()
 }
 

@@ -13,4 +13,6 @@ mod patch;
 mod quadratic_hertz;
 mod quadratic_ssnv128;
 mod quality;
+mod rigid_bodies;
+mod sensitivity;
 mod ssnv128;

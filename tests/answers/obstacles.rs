@@ -66,12 +66,9 @@ impl Pressing {
         });
         scene.contacts.push(SceneContact {
             group: "bottom".into(),
-            body: None,
             obstacle: Some((self.obstacle)(motion)),
-            against: None,
-            friction: self.friction,
-            rounded: None,
-            gap: 0.0,
+            friction: Some(self.friction),
+            ..SceneContact::default()
         });
         certified(&scene)
     }

@@ -5,7 +5,7 @@ use dpana::alternation::Outcome;
 use dpana::body::{self, CellKind, graded};
 use dpana::condensation::Condensed;
 use dpana::kkt::{self, BodyState, Judge};
-use dpana::report::{Report, ReportParts, StageWork};
+use dpana::report::{Report, ReportParts, RigidParts, StageWork};
 use dpana::scene::{MeshSource, Scene};
 use dpana::{Settings, solve};
 use serde_json::json;
@@ -83,8 +83,10 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         displacements: &displacements,
         motions: &[],
         balances: &balances,
+        rigid: RigidParts::default(),
         extremes: &vec![body::Extremes::default(); mechanics.bodies.len()],
         support_forces: &vec![Vec::new(); mechanics.bodies.len()],
+        group_states: &[],
         departure: none,
         fits: &[],
         stages: &StageWork::default(),

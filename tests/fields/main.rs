@@ -2,9 +2,14 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod cells;
 mod gaps;
 mod heat;
 mod loads;
+mod local_supports;
+mod materials;
+mod periodic;
+mod rigid_groups;
 mod springs;
 #[path = "../stacks/mod.rs"]
 mod stacks;

@@ -13,12 +13,12 @@ use crate::stacks::{body, certified, scene};
 
 /// Radii and length of a hollow bar, E, ν.
 const RADII: [f64; 2] = [1.0, 2.0];
-const LENGTH: f64 = 3.0;
-const YOUNG: f64 = 1000.0;
-const POISSON: f64 = 0.25;
+pub(crate) const LENGTH: f64 = 3.0;
+pub(crate) const YOUNG: f64 = 1000.0;
+pub(crate) const POISSON: f64 = 0.25;
 
 /// The bar along z in `around` cells, with groups `bottom`, `top` and `outer`.
-fn bar(around: usize) -> Mesh {
+pub(crate) fn bar(around: usize) -> Mesh {
     let (across, along) = (around / 8, around / 4);
     let at = |layer: usize, ring: usize, spoke: usize| {
         (layer * (across + 1) + ring) * around + spoke % around
@@ -75,7 +75,7 @@ fn bar(around: usize) -> Mesh {
 }
 
 /// G J / L.
-fn stiffness() -> f64 {
+pub(crate) fn stiffness() -> f64 {
     let shear = YOUNG / (2.0 * (1.0 + POISSON));
     shear * PI / 2.0 * (RADII[1].powi(4) - RADII[0].powi(4)) / LENGTH
 }
@@ -197,7 +197,7 @@ fn turns_that_make_no_sense_are_refused_by_place() {
         (
             json!({"at": [0, 1], "displacement": [0, 0], "turn": {"angle": 1, "point": [0, 0]}}),
             "plane_strain",
-            "expected `group` and `displacement` beside `turn`",
+            "beside `group` perhaps `turn`",
         ),
     ] {
         let found = refused(plane, support, model);

@@ -1,30 +1,32 @@
 //! The same contacts with a matrix, solved by the cone programs.
 
-use dpana::ContactProblem;
 use dpana::alternation::{Settings, Status, solve};
-use dpana::half_space::{Drag, HalfSpaceProblem, HalfSpaceStatus, Press, SelfAffine, Surroundings};
-use dpana::problem::Operator;
-use faer::Mat;
+use dpana::half_space::{
+    Drag, HalfSpaceCertificate, HalfSpaceProblem, HalfSpaceStatus, Press, SelfAffine, Surroundings,
+};
+use dpana::problem::Compliance;
 
 use crate::{RUBBER, half_space};
 
-/// The problem of an approach and a shift with its matrix, all cells.
-fn dense(problem: &HalfSpaceProblem, approach: f64, shift: [f64; 2]) -> ContactProblem {
-    let rows = problem.operator().entries(|_| true);
-    let unknowns = rows.len();
-    // Symmetric to round-off of the transforms.
-    let entry = |i: usize, j: usize| 0.5 * (rows[i][j] + rows[j][i]);
-    let operator = Operator::from_compliance(Mat::from_fn(unknowns, unknowns, entry)).unwrap();
-    let cells = unknowns / 3;
-    let free = (0..cells).flat_map(|_| [approach, -shift[0], -shift[1]]);
-    ContactProblem::new(
-        &vec![2; cells],
-        problem.friction().to_vec(),
-        problem.initial_gap().to_vec(),
-        free.collect(),
-        operator,
-    )
-    .unwrap()
+/// Whether a half-space's problem and the same with a matrix, by the cone programs, end alike.
+fn agree(problem: &HalfSpaceProblem) -> HalfSpaceCertificate {
+    let free_of_matrix = problem.solve_to(1e-12).unwrap();
+    assert_eq!(free_of_matrix.status, HalfSpaceStatus::Certified);
+    let dense = problem.contact_problem().unwrap().dense().unwrap();
+    let settings = Settings {
+        tolerance: 1e-12,
+        ..Settings::default()
+    };
+    let with_matrix = solve(&dense, &settings).unwrap();
+    assert_eq!(with_matrix.status, Status::Certified);
+    let expected = &with_matrix.reaction;
+    let most = expected.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
+    let found = &free_of_matrix.state.reaction;
+    for (unknown, expected) in expected.iter().enumerate() {
+        let off = found[unknown % 3][unknown / 3] - expected;
+        assert!(off.abs() < 1e-9 * most, "{unknown} {off:e} of {most:e}");
+    }
+    free_of_matrix.certificate
 }
 
 #[test]
@@ -50,28 +52,59 @@ fn both_find_the_same_reactions() {
         let press = Press::Approach(approach);
         let problem = HalfSpaceProblem::new(space.clone(), gap.clone(), &[mu], press).unwrap();
         let problem = problem.dragged(Drag::Shift(shift)).unwrap();
-        let free_of_matrix = problem.solve_to(1e-12).unwrap();
-        assert_eq!(free_of_matrix.status, HalfSpaceStatus::Certified);
-        let settings = Settings {
-            tolerance: 1e-12,
-            ..Settings::default()
-        };
-        let with_matrix = solve(&dense(&problem, approach, shift), &settings).unwrap();
-        assert_eq!(with_matrix.status, Status::Certified);
-        let most = with_matrix
-            .reaction
-            .iter()
-            .fold(0.0_f64, |m, t| m.max(t.abs()));
-        let found = &free_of_matrix.state.reaction;
-        for (unknown, expected) in with_matrix.reaction.iter().enumerate() {
-            let off = found[unknown % 3][unknown / 3] - expected;
-            assert!(
-                off.abs() < 1e-9 * most,
-                "{mu} {unknown} {off:e} of {most:e}"
-            );
-        }
+        let kinds = agree(&problem);
         // A contact whose friction does not matter: some slip, some stick, some are open.
-        let kinds = free_of_matrix.certificate;
         assert!(kinds.open > 10 && (mu == 0.0 || (kinds.stick > 0 && kinds.slip > 0)));
+    }
+}
+
+#[test]
+fn a_given_load_and_force_are_free_modes_of_the_other_side() {
+    let space = half_space([10, 9], [1.0, 0.9], Surroundings::Free, RUBBER);
+    let gap = space.grid().sample(|[x, y]| 0.4 * (x * x + y * y));
+    let problem = HalfSpaceProblem::new(space, gap, &[0.4], Press::Load(0.02)).unwrap();
+    agree(&problem);
+    let dragged = problem.dragged(Drag::Force([3e-3, -2e-3])).unwrap();
+    let kinds = agree(&dragged);
+    assert!(kinds.stick > 0 && kinds.slip > 0, "{kinds:?}");
+}
+
+#[test]
+fn a_half_space_offers_what_a_matrix_does() {
+    for around in [Surroundings::Free, Surroundings::Periodic] {
+        let space = half_space([6, 5], [1.0, 0.9], around, RUBBER);
+        let problem = HalfSpaceProblem::new(space.clone(), vec![0.0; 30], &[0.1], Press::Load(1.0));
+        let dense = problem.unwrap().contact_problem().unwrap().dense().unwrap();
+        let matrix = dense.compliance();
+        let force: Vec<f64> = (0..90).map(|k| f64::from(k * k % 17) - 8.0).collect();
+        let near = |found: &[f64], expected: &[f64]| {
+            let pairs = found.iter().zip(expected);
+            pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-12 * 8.0 * matrix.norm_max()));
+        };
+        near(
+            &Compliance::apply(&*space, &force),
+            &dense.displacement(&force),
+        );
+        let (to, of) = ([0, 4, 5, 40, 89], [1, 4, 30, 31, 88]);
+        let few = &force[..5];
+        let moved = dense.operator().apply_block(&to, &of, few);
+        near(&space.apply_block(&to, &of, few), &moved);
+        let own = dense.operator().diagonal_block(12..15);
+        near(
+            space.diagonal_block(12..15).as_flattened(),
+            own.as_flattened(),
+        );
+        // Positive definite and symmetric on a set: what conjugate gradients need.
+        let image = |at: usize| {
+            let unit: Vec<f64> = (0..5).map(|k| f64::from(u8::from(k == at))).collect();
+            space.precondition(&of, &unit)
+        };
+        let images: Vec<Vec<f64>> = (0..5).map(image).collect();
+        for (i, image) in images.iter().enumerate() {
+            assert!(image[i] > 0.0);
+            for (j, other) in images.iter().enumerate() {
+                assert!((image[j] - other[i]).abs() < 1e-12 * image[i]);
+            }
+        }
     }
 }

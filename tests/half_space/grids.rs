@@ -77,6 +77,29 @@ fn no_contact_and_no_load_leave_no_reaction() {
         );
         assert!(outcome.state.reaction.iter().flatten().all(|t| *t == 0.0));
         assert_eq!(outcome.certificate.open, 256);
+        assert!(outcome.work.applications() < 20.0, "{:?}", outcome.work);
+    }
+}
+
+#[test]
+fn a_force_on_what_is_not_pressed_has_no_equilibrium_and_none_costs_nothing() {
+    let space = half_space([16, 16], [1.0; 2], Surroundings::Free, RUBBER);
+    let gap = space.grid().sample(|[x, y]| x * x + y * y - 0.2);
+    let problem = HalfSpaceProblem::new(space, gap, &[0.5], Press::Load(0.0)).unwrap();
+    for (force, status) in [
+        ([1e-3, 0.0], HalfSpaceStatus::NoEquilibrium),
+        ([0.0; 2], HalfSpaceStatus::Certified),
+    ] {
+        let outcome = problem
+            .clone()
+            .dragged(Drag::Force(force))
+            .unwrap()
+            .solve()
+            .unwrap();
+        assert_eq!(outcome.status, status);
+        assert!(outcome.work.applications() < 20.0, "{:?}", outcome.work);
+        // It just touches: x = y = 1/32.
+        assert!((outcome.state.approach - (2.0 / 1024.0 - 0.2)).abs() < 1e-15);
     }
 }
 
@@ -359,6 +382,21 @@ fn input_that_is_none_is_refused_with_its_place() {
             .unwrap_err(),
         "reference[1]",
     );
+    // Squares of products would overflow.
+    refused(
+        problem(vec![0.0; 16], &[0.1], Press::Load(1e300)).unwrap_err(),
+        "load",
+    );
+    refused(
+        good.clone().dragged(Drag::Shift([0.0, 1e300])).unwrap_err(),
+        "shift[1]",
+    );
+    refused(grid([3, 3], [1e-200, 1.0]), "grid.spacing[0]");
+    let stiff = ElasticHalf {
+        young: 1e300,
+        ..RUBBER
+    };
+    refused(make(stiff, None), "half_space.material.young");
     refused(good.solve_to(0.5).unwrap_err(), "tolerance");
     let surface = SelfAffine {
         hurst: 0.8,

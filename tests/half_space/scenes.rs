@@ -1,11 +1,12 @@
 //! Scenes of half-spaces, from the library and the command line.
 
+use std::f64::consts::PI;
 use std::fs;
 use std::path::Path;
 
 use dpana::half_space::{Drag, Press};
 use dpana::scene::HalfSpaceScene;
-use dpana::solve_half_space;
+use dpana::{Variation, half_space_cases, solve_half_space};
 use vtkio::model::{DataSet, Piece};
 
 use crate::program::{dpana, folder};
@@ -45,6 +46,20 @@ fn the_shipped_history_is_certified_and_remembers_its_slip() {
         shifts[3] > 0.0 && shifts[4] < 0.0 && -shifts[4] < shifts[3],
         "{shifts:?}"
     );
+}
+
+#[test]
+fn every_shipped_scene_is_sound() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/half_space");
+    let files = fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path());
+    let scenes = files.filter(|path| {
+        path.extension().is_some_and(|ending| ending == "json")
+            && !path.ends_with("scene.schema.json")
+    });
+    let sound = scenes.map(|path| HalfSpaceScene::from_file(path).unwrap().history().unwrap());
+    assert_eq!(sound.count(), 3);
 }
 
 #[test]
@@ -95,6 +110,17 @@ fn what_is_wrong_in_a_scene_is_told_with_its_place() {
             sphere(missing, r#", "load": 1"#),
             "surface[0].file: cannot read the file nowhere.npy",
         ),
+        (
+            sphere(
+                BALL,
+                r#", "load": 1, "force": [0.1, 0], "rolling": {"spin": 1}"#,
+            ),
+            "rolling: a shift or a force beside it",
+        ),
+        (
+            sphere(BALL, r#", "load": 1"#).replace("[16, 16]", "[0, 16]"),
+            "grid.cells[0]: 0",
+        ),
     ] {
         let found = scene(&text).unwrap().history().unwrap_err().to_string();
         assert!(found.starts_with(place), "{found} for {place}");
@@ -144,7 +170,16 @@ fn the_command_line_writes_what_numpy_and_vtk_read() {
     )
     .unwrap();
     let outputs = [
-        "--vti", "a.vti", "--npy", "a.npy", "--table", "a.csv", "--report", "a.json",
+        "--vti",
+        "a.vti",
+        "--npy",
+        "a.npy",
+        "--table",
+        "a.csv",
+        "--report",
+        "a.json",
+        "--spectrum",
+        "s.csv",
     ];
     let output = dpana(
         &folder,
@@ -171,9 +206,98 @@ fn the_command_line_writes_what_numpy_and_vtk_read() {
     assert_eq!(piece.data.cell.len(), 6);
     let table = fs::read_to_string(folder.join("a.csv")).unwrap();
     assert_eq!(table.lines().count(), 2);
+    let spectrum = fs::read_to_string(folder.join("s.csv")).unwrap();
+    assert!(spectrum.starts_with("wave_number,power,waves\n") && spectrum.lines().count() > 8);
+    let vary = [
+        "cases",
+        "ball.json",
+        "--vary",
+        "load=1e-4,1e-3",
+        "--out",
+        "c.csv",
+    ];
+    assert_eq!(dpana(&folder, &vary).status.code(), Some(0));
+    let cases = fs::read_to_string(folder.join("c.csv")).unwrap();
+    assert!(cases.lines().next().unwrap().ends_with("status,stiffness"));
     let refused = dpana(
         &folder,
         &["half-space", "ball.json", "--vti", "nowhere/a.vti"],
     );
     assert_eq!(refused.status.code(), Some(2));
+}
+
+#[test]
+fn the_published_schema_is_that_of_the_types() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/half_space/scene.schema.json");
+    let published: serde_json::Value = serde_json::from_slice(&fs::read(file).unwrap()).unwrap();
+    assert!(
+        published == dpana::scene::half_space_schema(),
+        "write it anew: cargo run -- schema --half-space > examples/half_space/scene.schema.json"
+    );
+}
+
+fn vary(name: &str, values: &[f64]) -> Variation {
+    Variation {
+        name: name.to_owned(),
+        values: values.to_vec(),
+    }
+}
+
+#[test]
+fn cases_tabulate_load_area_and_stiffness_as_hertz_has_them() {
+    // a³ = 3 P R/(4 E*), δ = a²/R, dP/dδ = 2 E* a.
+    let text = sphere(BALL, "").replace("[16, 16]", "[64, 64]");
+    let loads = [2e-3, 4e-3, 8e-3];
+    let table = half_space_cases(&scene(&text).unwrap(), &[vary("load", &loads)], |_, _| {});
+    let table = table.unwrap();
+    let column = |name: &str| table.column(name).unwrap();
+    let stiffness = column("stiffness");
+    let modulus = 2.0 / 0.91;
+    for (at, load) in loads.into_iter().enumerate() {
+        let a = (3.0 * load * 10.0 / (4.0 * modulus)).cbrt();
+        assert!((column("approach")[at] / (a * a / 10.0) - 1.0).abs() < 0.005);
+        assert!((column("contact_area")[at] / (PI * a * a) - 1.0).abs() < 0.05);
+        let found = stiffness[at] / (2.0 * modulus * a) - 1.0;
+        assert!(found.abs() < 0.03, "{load} {found}");
+    }
+    assert_eq!(column("load").len(), 3);
+}
+
+#[test]
+fn cases_refuse_what_they_cannot_vary() {
+    let ball = scene(&sphere(BALL, r#", "load": 1e-3"#)).unwrap();
+    let refused = |scene: &HalfSpaceScene, vary: &[Variation]| {
+        half_space_cases(scene, vary, |_, _| {})
+            .unwrap_err()
+            .to_string()
+    };
+    let unknown = refused(&ball, &[vary("lod", &[1.0])]);
+    assert!(unknown.contains("did you mean `load`"), "{unknown}");
+    let twice = refused(&ball, &[vary("load", &[1.0]), vary("load", &[1.0])]);
+    assert!(twice.contains("twice"), "{twice}");
+    let both = refused(&ball, &[vary("load", &[1.0]), vary("approach", &[1.0])]);
+    assert!(both.contains("both `load` and `approach`"), "{both}");
+    let negative = refused(&ball, &[vary("friction", &[0.1, -0.1])]);
+    assert!(negative.starts_with("friction: -0.1"), "{negative}");
+    let history = scene(&sphere(BALL, r#", "steps": [{"load": 1e-3}]"#)).unwrap();
+    assert!(refused(&history, &[vary("friction", &[0.1])]).starts_with("steps"));
+    let empty = refused(&ball, &[vary("load", &[])]);
+    assert!(empty.starts_with("load"), "{empty}");
+}
+
+#[test]
+fn a_periodic_surface_in_full_contact_is_stiff_without_bound() {
+    let text = sphere(r#"{"cone": {"slope": 1e-3}}"#, r#", "load": 1"#);
+    let text = text.replace(
+        r#""size": [1, 1]"#,
+        r#""size": [1, 1], "surroundings": "periodic""#,
+    );
+    let loads = [vary("load", &[0.0, 1e-4, 1.0])];
+    let table = half_space_cases(&scene(&text).unwrap(), &loads, |_, _| {}).unwrap();
+    let (stiffness, area) = (
+        table.column("stiffness").unwrap(),
+        table.column("area_fraction").unwrap(),
+    );
+    assert!(stiffness[0] == 0.0 && stiffness[1].is_finite() && stiffness[1] > 0.0);
+    assert!(area[2] == 1.0 && stiffness[2] == f64::INFINITY);
 }

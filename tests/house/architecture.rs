@@ -8,32 +8,46 @@ use crate::rust_words::{tokens, without_tests};
 
 /// A module and what it may import of ours; `main` with its `commands` and `python`, a package of its
 /// own, are users of the public API.
-const MAY_IMPORT: [(&str, &[&str]); 22] = [
+const MAY_IMPORT: [(&str, &[&str]); 25] = [
     ("error", &[]),
+    ("random", &[]),
+    ("stage", &[]),
     ("closed_forms", &["error"]),
     ("body", &["error"]),
     ("mesh_file", &["body", "error"]),
     ("contact", &["body", "mesh_file", "error"]),
     ("problem", &["error"]),
-    ("condensation", &["body", "contact", "problem", "error"]),
+    (
+        "condensation",
+        &["body", "contact", "problem", "error", "stage"],
+    ),
     ("cone", &["problem", "limit", "error"]),
     ("limit", &["problem", "error"]),
-    ("half_space", &["error"]),
+    ("half_space", &["problem", "error"]),
     (
         "kkt",
         &["body", "contact", "problem", "condensation", "error"],
     ),
-    ("alternation", &["problem", "cone", "limit", "kkt", "error"]),
+    (
+        "alternation",
+        &["problem", "cone", "limit", "kkt", "error", "stage"],
+    ),
+    (
+        "trust",
+        &["problem", "alternation", "kkt", "random", "error"],
+    ),
     (
         "report",
         &[
             "body",
+            "mesh_file",
             "contact",
             "problem",
             "condensation",
             "alternation",
             "half_space",
             "kkt",
+            "trust",
             "error",
         ],
     ),
@@ -64,10 +78,12 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "limit",
             "alternation",
             "kkt",
+            "trust",
             "report",
             "scene",
             "half_space",
             "error",
+            "stage",
         ],
     ),
     (
@@ -82,6 +98,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "kkt",
             "pipeline",
             "report",
+            "random",
             "scene",
             "error",
         ],
@@ -99,6 +116,7 @@ const MAY_IMPORT: [(&str, &[&str]); 22] = [
             "pipeline",
             "report",
             "scene",
+            "half_space",
             "error",
         ],
     ),

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 /// Folders whose constants decide how a problem is solved or judged.
-const FOLDERS: [&str; 8] = [
+const FOLDERS: [&str; 9] = [
     "contact",
     "problem",
     "condensation",
@@ -14,6 +14,7 @@ const FOLDERS: [&str; 8] = [
     "half_space",
     "kkt",
     "alternation",
+    "trust",
 ];
 
 /// File, name and value of the constants of a file that are numbers.

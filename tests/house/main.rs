@@ -20,3 +20,4 @@ mod rust_words;
 mod study;
 mod units;
 mod verify;
+mod what_if;

@@ -9,7 +9,7 @@ use dpana::contact::{ContactNode, ContactPair, ContactSurface, Obstacle, Opposit
 use dpana::kkt::{Balance, ContactStatus, Judge, Worst, WorstNode};
 use dpana::problem::{ContactProblem, Operator};
 use dpana::report::vtu::{BodyFields, body_vtu, contact_path, contact_vtu};
-use dpana::report::{Report, ReportParts, StageWork, replace_file};
+use dpana::report::{Report, ReportParts, RigidParts, StageWork, replace_file};
 use faer::Mat;
 use serde_json::{Value, json};
 use vtkio::Vtk;
@@ -39,6 +39,8 @@ fn body(name: &str, mesh: Mesh) -> Body {
         supports: vec![],
         loads: vec![],
         foundation: vec![],
+        formulation: dpana::body::Formulation::Standard,
+        ties: Vec::new(),
     }
 }
 
@@ -49,8 +51,10 @@ fn pair(place: &str, opposite: Opposite) -> ContactPair {
         facets: vec![],
         opposite,
         friction: 0.5,
+        law: dpana::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
+        dragged: false,
     }
 }
 
@@ -204,8 +208,10 @@ impl Row {
             displacements: &self.displacements,
             motions: &[],
             balances: &self.balances,
+            rigid: RigidParts::default(),
             extremes: &self.extremes,
             support_forces: &self.support_forces,
+            group_states: &[],
             departure: Worst::default(),
             fits: &[],
             stages: &STAGES,
@@ -567,6 +573,9 @@ fn the_body_is_read_back_with_its_cells_and_fields() {
         displacement: &row.displacements[0],
         nodal_stress: &stress,
         cell_stress: &cell_stress,
+        cell_strain: &[],
+        contact_force: &[],
+        support_force: &[],
     }])
     .unwrap();
     let piece = read_back("row.vtu", &text);
@@ -609,6 +618,9 @@ fn cells_of_3d_are_read_back_by_their_kind() {
         displacement: &displacement,
         nodal_stress: &[],
         cell_stress: &[],
+        cell_strain: &[],
+        contact_force: &[],
+        support_force: &[],
     };
     let piece = read_back("cells.vtu", &body_vtu(&[fields]).unwrap());
     assert_eq!(piece.cells.types, [CellType::Hexahedron, CellType::Tetra]);
@@ -628,6 +640,9 @@ fn several_bodies_are_read_back_one_after_the_other() {
         displacement: &row.displacements[0],
         nodal_stress: &[],
         cell_stress: &[],
+        cell_strain: &[],
+        contact_force: &[],
+        support_force: &[],
     };
     let of_triangle = BodyFields {
         mesh: &triangle,
@@ -726,4 +741,81 @@ fn a_file_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
     assert!(replace_file(&missing, "text").is_err());
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
     assert_eq!(contact_path(&path), folder.join("body_contact.vtu"));
+}
+
+/// Names and places (points, cells) of the arrays of a file.
+fn arrays_of(piece: &UnstructuredGridPiece) -> Vec<(String, &'static str)> {
+    let names = |attributes: &[Attribute]| -> Vec<String> {
+        let arrays = attributes.iter().filter_map(|attribute| match attribute {
+            Attribute::DataArray(array) => Some(array.name.clone()),
+            Attribute::Field { .. } => None,
+        });
+        arrays.collect()
+    };
+    let points = names(&piece.data.point)
+        .into_iter()
+        .map(|name| (name, "points"));
+    let cells = names(&piece.data.cell)
+        .into_iter()
+        .map(|name| (name, "cells"));
+    let mut arrays: Vec<_> = points.chain(cells).collect();
+    arrays.sort();
+    arrays
+}
+
+/// The rows of the table with this heading in the documentation: names and places, ours or of Abaqus.
+fn documented(heading: &str, column: usize) -> Vec<(String, &'static str)> {
+    let page = include_str!("../../src/report/vtu/mod.rs");
+    let (_, table) = page.split_once(&format!("//! | {heading}: array")).unwrap();
+    let rows = table
+        .lines()
+        .skip(2)
+        .take_while(|line| line.starts_with("//! |"));
+    let mut arrays = Vec::new();
+    for row in rows {
+        let cells: Vec<&str> = row.split('|').map(str::trim).collect();
+        let own = cells[1].trim_matches('`');
+        let name = match cells[column].trim_matches('`') {
+            "" => own,
+            name => name,
+        };
+        let places = ["points", "cells"]
+            .into_iter()
+            .filter(|place| cells[2].contains(place));
+        arrays.extend(places.map(|place| (name.to_owned(), place)));
+    }
+    arrays.sort();
+    arrays
+}
+
+#[test]
+fn files_hold_the_arrays_that_the_documentation_lists() {
+    let scene = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/scenes/square.json");
+    let solution = dpana::solve(&dpana::Scene::from_file(scene).unwrap()).unwrap();
+    let documents = solution.to_vtu().unwrap();
+    for (document, heading) in documents.iter().zip(["bodies", "contact surface"]) {
+        let own = read_back("documented.vtu", document);
+        assert_eq!(arrays_of(&own), documented(heading, 1));
+        let renamed = dpana::report::vtu::abaqus_names(document);
+        let renamed = read_back("documented.vtu", &renamed);
+        assert_eq!(arrays_of(&renamed), documented(heading, 4));
+    }
+    // Contacts and supports hold what presses: 5e7 on the top and 15e7 on the left, both 0.04 wide.
+    let bodies = read_back("documented.vtu", &documents[0]);
+    let sum = |name: &str| {
+        let force = array(&bodies.data.point, name);
+        [0, 1].map(|axis| force.iter().skip(axis).step_by(3).sum::<f64>())
+    };
+    let (contact, support) = (sum("contact_force"), sum("support_force"));
+    let totals = solution.report().unwrap().totals;
+    for (axis, load) in [6e6, -2e6].into_iter().enumerate() {
+        assert!(
+            (contact[axis] - totals.contact_force[axis]).abs() < 1e-3,
+            "{contact:?}"
+        );
+        assert!(
+            (contact[axis] + support[axis] + load).abs() < 1e-3,
+            "{support:?}"
+        );
+    }
 }

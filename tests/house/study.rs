@@ -8,7 +8,7 @@ use crate::square;
 use dpana::report::{Part, ReportedStatus, StudiedMesh, StudiedRun, Study};
 use dpana::scene::Scene;
 use dpana::study;
-use dpana::study::Plan;
+use dpana::study::{Plan, half_space_fit};
 use serde_json::{Value, json};
 
 /// One tolerance, no other friction than the scene's, nothing repeated.
@@ -82,6 +82,18 @@ fn loops_on_the_square_take_the_sweeps_that_theory_gives_them() {
             "{name}"
         );
     }
+    // Springs of a million times a contact's own stiffness leave about a millionth of the reaction, if rounding of
+    // contacts that share them counts a hundred times at most; multipliers around soft ones leave nothing.
+    let rival = |name: &str| run(&study, Part::Loops, name, None);
+    let penalty = rival("penalty");
+    assert_eq!(penalty.status, ReportedStatus::NotConverged);
+    assert!((1e-8..1e-4).contains(&penalty.distance), "{penalty:?}");
+    let augmented = rival("augmented Lagrangian");
+    assert_eq!(augmented.status, ReportedStatus::Certified);
+    assert!(
+        augmented.distance < 1e-10 && augmented.sweeps > 5,
+        "{augmented:?}"
+    );
     // On 16 cells Gauss–Seidel converges, on 32 it does not; both to the same solution as far as
     // they come.
     let baseline = |mesh: usize| {
@@ -300,5 +312,74 @@ fn wrong_arguments_are_refused_before_anything_is_solved() {
         let name = option.trim_start_matches('-');
         assert!(said.contains(name), "{option} {value}: {said}");
         assert!(!folder.join("out").exists(), "{option} {value}");
+    }
+}
+
+/// A block that a circle presses, half its width and its height given; cells of 1/8.
+fn pressed_block(half: f64, height: f64, friction: f64) -> String {
+    let cells = [16.0 * half, 8.0 * height].map(|count| count as usize);
+    format!(
+        r#"{{"bodies": [{{"mesh": {{"rectangle": {{"x": [{0}, {half}], "y": [0, {height}],
+            "cells": {cells:?}}}}}, "model": "plane_strain",
+            "materials": [{{"young": 1000, "poisson": 0.3}}],
+            "supports": [{{"group": "bottom", "displacement": [0, 0.02]}}]}}],
+            "contacts": [{{"group": "top", "friction": {2},
+            "obstacle": {{"circle": {{"center": [0, {1}], "radius": 100}}}}}}]}}"#,
+        -half,
+        height + 100.0,
+        friction,
+    )
+}
+
+#[test]
+fn a_half_space_stands_for_a_large_block_and_not_for_a_thin_layer() {
+    let fit = |half: f64, height: f64, friction: f64| {
+        let scene = Scene::from_json(&pressed_block(half, height, friction), "").unwrap();
+        let fit = half_space_fit(&scene).unwrap();
+        assert!(fit.certified(), "{}", fit.sentence());
+        fit
+    };
+    // Johnson (1985), section 5.8: the layer's pressure is a parabola once it is thinner than its contact is
+    // wide. A block's departs like (a/L)²; a direct sum of Flamant's strips in another program, which leaves out
+    // that normals are inclined by x/R, has 33.7 %, 2.3 % and 0.70 %.
+    let (layer, block) = (fit(4.0, 0.5, 0.0), fit(12.0, 12.0, 0.0));
+    let small = fit(6.0, 6.0, 0.0);
+    for (found, mean) in [(&layer, 0.337), (&small, 0.0227), (&block, 0.0070)] {
+        assert!(
+            (found.mean / mean - 1.0).abs() < 0.15,
+            "{}",
+            found.sentence()
+        );
+    }
+    assert!(block.good == 1.0 && layer.good < 0.1);
+    assert!(fit(12.0, 12.0, 0.2).mean < 0.02);
+    assert_eq!(block.contacts.rows.len(), 193);
+    let [scene, halves] =
+        ["pressure", "half_space_pressure"].map(|name| block.contacts.column(name).unwrap());
+    let sum = |column: &[f64]| column.iter().sum::<f64>();
+    assert!((sum(&scene) / sum(&halves) - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn half_spaces_refuse_scenes_that_they_cannot_stand_for() {
+    let text = pressed_block(1.0, 1.0, 0.2);
+    for (from, to, words) in [
+        (
+            r#""model": "plane_strain""#,
+            r#""model": "axisymmetric""#,
+            "plane_strain or solid",
+        ),
+        (r#""poisson": 0.3"#, r#""poisson": -0.3"#, "0 <= poisson"),
+        (
+            r#""supports": ["#,
+            r#""supports": [{"group": "left", "displacement": [0, null]}, "#,
+            "drawn whole",
+        ),
+    ] {
+        let text = text
+            .replace(from, to)
+            .replace(r#""x": [-1, 1]"#, r#""x": [0, 1]"#);
+        let found = half_space_fit(&Scene::from_json(&text, "").unwrap()).unwrap_err();
+        assert!(found.to_string().contains(words), "{found}");
     }
 }

@@ -61,7 +61,7 @@ impl Scales {
             other => unreachable!("{other:?}"),
         }
         for material in &mut body.materials {
-            material.young *= self.stress;
+            material.young = material.young.map(|young| young * self.stress);
         }
         for support in &mut body.supports {
             let displacement = match support {
@@ -71,6 +71,7 @@ impl Scales {
                     lengthen(at);
                     displacement
                 }
+                other => unreachable!("{other:?}"),
             };
             for value in displacement.iter_mut().flatten() {
                 *value *= self.length * self.load;

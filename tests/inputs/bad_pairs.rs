@@ -166,9 +166,9 @@ fn names_of_nothing_are_refused_with_the_nearest_known_one() {
     says(&error, &["contacts[0].against.body", "lower, upper"]);
     let error = with(|pair| pair.against = None);
     says(&error, &["contacts[0]", "neither"]);
-    let error = with(|pair| pair.friction = -0.1);
+    let error = with(|pair| pair.friction = Some(-0.1));
     says(&error, &["contacts[0].friction", "-0.1"]);
-    let error = with(|pair| pair.friction = f64::NAN);
+    let error = with(|pair| pair.friction = Some(f64::NAN));
     says(&error, &["contacts[0].friction", "NaN"]);
     let mut pairs = faces("bottom", "top");
     pairs[0].against = against(Some("lower"), "body");

@@ -108,6 +108,22 @@ fn a_check_says_how_many_contacts_there_are_and_what_room_they_take() {
 }
 
 #[test]
+fn the_estimate_is_what_a_solve_takes() {
+    // Held bodies and floating ones, in the plane and in space.
+    for value in [rings(4.8), cube(-1.0, &[0.0, 0.0, 0.0])] {
+        let found = check(&scene(&value)).unwrap().estimate;
+        let solution = solve(&scene(&value)).unwrap();
+        let work = solution.condensed().work();
+        assert_eq!(found.unknowns, work.unknowns);
+        assert_eq!(found.factor_entries, work.factor_entries);
+        assert_eq!(found.contacts, solution.condensed().surface().nodes.len());
+        // Every entry of L is computed by some operation, and by fewer than there are unknowns.
+        let (entries, unknowns) = (work.factor_entries as f64, work.unknowns as f64);
+        assert!(found.operations > 0.5 * entries && found.operations < 2.0 * entries * unknowns);
+    }
+}
+
+#[test]
 fn a_surface_drawn_clockwise_is_turned_back_with_a_note() {
     let mesh = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/meshes/E_clockwise.msh");
     let value = json!({"bodies": [{"mesh": {"file": mesh}, "model": "plane_strain",

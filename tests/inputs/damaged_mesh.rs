@@ -1,5 +1,6 @@
 //! A damaged mesh file is refused or still a mesh, and never stops the program.
 
+use dpana::mesh_file;
 use dpana::mesh_file::gmsh;
 use proptest::prelude::*;
 
@@ -21,6 +22,65 @@ fn replace_word(text: &str, fraction: f64, word: &str) -> String {
         .find(char::is_whitespace)
         .map_or(text.len(), |length| start + length);
     format!("{}{word}{}", &text[..start], &text[end..])
+}
+
+/// The other formats, and a binary file of Gmsh.
+const FILES: [(&str, &[u8]); 7] = [
+    ("a.inp", include_bytes!("../data/meshes/F_hexes.inp")),
+    (
+        "b.inp",
+        include_bytes!("../data/decks/own_blocks_c3d20.inp"),
+    ),
+    ("a.vtu", include_bytes!("../data/meshes/F_tets_ascii.vtu")),
+    ("b.vtu", include_bytes!("../data/meshes/F_hexes_zlib.vtu")),
+    (
+        "c.vtu",
+        include_bytes!("../data/meshes/F_tets_appended.vtu"),
+    ),
+    (
+        "d.vtu",
+        include_bytes!("../data/meshes/F_hexes_appended.vtu"),
+    ),
+    ("a.msh", include_bytes!("../../examples/meshes/gears.msh")),
+];
+
+/// Bytes that are numbers, signs of each format, or nothing.
+fn splinter() -> impl Strategy<Value = Vec<u8>> {
+    prop_oneof![
+        prop::collection::vec(any::<u8>(), 0..9),
+        Just(b"-1".to_vec()),
+        Just(b"18446744073709551615".to_vec()),
+        Just(b"99999999999".to_vec()),
+        Just(b"\n*ELEMENT, TYPE=C3D4\n1,1,1,1,1\n".to_vec()),
+        Just(b"*INCLUDE, INPUT=a.inp\n".to_vec()),
+        Just(b"\">".to_vec()),
+        Just(b"</DataArray>".to_vec()),
+        Just(b"=".to_vec()),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(600))]
+
+    #[test]
+    fn other_formats_gone_wrong_never_break_the_reader(
+        file in 0..FILES.len(),
+        fraction in 0.0..1.0,
+        gone in 0..40_usize,
+        splinter in splinter(),
+        cut in any::<bool>(),
+    ) {
+        let (name, bytes) = FILES[file];
+        let at = (fraction * bytes.len() as f64) as usize;
+        let rest = if cut { bytes.len() } else { (at + gone).min(bytes.len()) };
+        let bytes = [&bytes[..at], &splinter, &bytes[rest..]].concat();
+        let none = |file: &str| Err(dpana::Error::Empty { place: file.to_owned() });
+        if let Ok(mesh) = mesh_file::parse(&bytes, name, &none) {
+            for cell in mesh.cells() {
+                prop_assert!(cell.nodes.iter().all(|&node| node < mesh.nodes.len()));
+            }
+        }
+    }
 }
 
 proptest! {

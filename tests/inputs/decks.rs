@@ -97,7 +97,11 @@ fn assert_squares(deck: &Deck) {
 #[test]
 fn blocks_of_hexahedra_press_evenly_whatever_way_the_deck_is_written() {
     // u_z = −p / E₁ − p / 2 E₂ on top, ν p / E₂ sideways in the softer block.
-    for name in ["own_blocks_c3d8.inp", "own_blocks_c3d20.inp"] {
+    for name in [
+        "own_blocks_c3d8.inp",
+        "own_blocks_c3d20.inp",
+        "own_wedges_c3d15.inp",
+    ] {
         let solution = solved(name);
         let report = solution.report().unwrap();
         assert_close(report.totals.normal.abs(), 100.0, 1e-9);
@@ -709,5 +713,5 @@ fn an_imported_deck_is_a_scene_with_the_same_answer() {
 #[test]
 fn every_deck_of_the_folder_is_tested_here() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/decks");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), 4);
+    assert_eq!(fs::read_dir(folder).unwrap().count(), 5);
 }

@@ -16,6 +16,8 @@ mod decks;
 mod hostile_input;
 mod manners;
 mod mesh_cures;
+mod mesh_files;
+mod models;
 mod shipped_scenes;
 mod streams;
 mod unsolvable_scenes;

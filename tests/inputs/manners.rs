@@ -136,3 +136,74 @@ fn threads_are_a_number_that_changes_no_bit() {
         assert!(words.contains("--threads"), "{words}");
     }
 }
+
+#[test]
+fn the_report_or_the_sweeps_are_printed_on_request() {
+    let folder = folder("printed");
+    fs::write(folder.join("scene.json"), SCENE).unwrap();
+    let output = dpana(&folder, &["solve", "scene.json", "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(report["status"], "certified");
+    assert!(output.stderr.is_empty(), "{output:?}");
+    let output = dpana(&folder, &["solve", "scene.json", "-v"]);
+    let words = String::from_utf8(output.stdout).unwrap();
+    let rows = words.lines().skip_while(|line| !line.starts_with("sweep "));
+    let sweeps = report["work"]["sweeps"].as_u64().unwrap() as usize;
+    assert_eq!(rows.count(), 1 + sweeps, "{words}");
+    for flags in [
+        ["--json", "-v"],
+        ["-q", "-v"],
+        ["--json", "--report=a.json"],
+    ] {
+        let output = dpana(&folder, &[&["solve", "scene.json"], &flags[..]].concat());
+        assert_eq!(output.status.code(), Some(2), "{flags:?}");
+    }
+}
+
+#[test]
+fn a_starter_scene_of_a_mesh_is_sound_and_overwrites_nothing() {
+    let folder = folder("starter");
+    let data = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/meshes");
+    let lug = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/meshes/lug.msh");
+    for (from, parts) in [
+        (
+            lug.to_owned(),
+            ["\"shank\"", "\"hole\"", "\"base\"", "\"pressure\": 1.0"],
+        ),
+        (
+            format!("{data}/F_tets.msh"),
+            ["\"split\"", "right block.own", "\"base\"", "left block"],
+        ),
+        (
+            format!("{data}/F_hexes_zlib.vtu"),
+            ["\"split\"", ".own", "\"base\"", "left_block"],
+        ),
+    ] {
+        let name = Path::new(&from).file_name().unwrap().to_str().unwrap();
+        fs::copy(&from, folder.join(name)).unwrap();
+        let output = dpana(&folder, &["new", name]);
+        let words = String::from_utf8(output.stdout).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{words}");
+        assert!(words.contains("next: dpana check"), "{words}");
+        let scene = Path::new(name).with_extension("json");
+        let scene = scene.to_str().unwrap();
+        let text = fs::read_to_string(folder.join(scene)).unwrap();
+        for part in parts {
+            assert!(text.contains(part), "`{part}` is not in {text}");
+        }
+        assert_eq!(dpana(&folder, &["check", scene]).status.code(), Some(0));
+        let output = dpana(&folder, &["new", name]);
+        assert_eq!(output.status.code(), Some(2));
+        let words = String::from_utf8(output.stderr).unwrap();
+        assert!(words.contains("is there already"), "{words}");
+    }
+    // A mesh without named surfaces has nothing to begin from.
+    let bare = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n\
+        $Elements\n1\n1 2 2 0 1 1 2 3\n$EndElements\n";
+    fs::write(folder.join("bare.msh"), bare).unwrap();
+    let output = dpana(&folder, &["new", "bare.msh"]);
+    let words = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(words.contains("Physical Surface"), "{words}");
+}

@@ -192,7 +192,7 @@ fn a_nan_anywhere_in_a_scene_built_in_code_is_refused_at_its_place() {
         });
     });
     refused("bodies[0].materials[0].poisson", &|scene| {
-        scene.bodies[0].materials[0].poisson = f64::NAN;
+        scene.bodies[0].materials[0].poisson = Some(f64::NAN);
     });
     refused("contacts[0].obstacle.plane.normal", &|scene| {
         scene.contacts[0].obstacle = Some(SceneObstacle::Plane {

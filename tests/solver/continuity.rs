@@ -1,11 +1,12 @@
 //! A state that bodies reach without a jump is told from one that they snap into.
 
 use crate::square;
-use dpana::alternation::{Earlier, Outcome, Settings, Status, WayBack, solve, way_back};
+use dpana::alternation::{Outcome, Settings, Status, solve};
 use dpana::condensation::Condensed;
 use dpana::problem::{ContactProblem, Operator};
 use dpana::report::Continuity;
 use dpana::scene::SceneSteps;
+use dpana::trust::{Earlier, WayBack, way_back};
 use faer::mat;
 use serde_json::json;
 

@@ -2,10 +2,11 @@
 //! other starts tell whether a state is the only one.
 
 use crate::square;
-use dpana::alternation::{Outcome, Settings, Shortfall, Status, contraction, other_starts, solve};
+use dpana::alternation::{Outcome, Settings, Shortfall, Status, solve};
 use dpana::condensation::Condensed;
 use dpana::problem::{ContactProblem, Operator};
 use dpana::study::Variant;
+use dpana::trust::{contraction, other_starts};
 use dpana::verify::{Reach, hard_cases};
 use faer::{Mat, mat};
 use serde_json::Value;

@@ -6,9 +6,12 @@ mod square;
 
 mod bare_problems;
 mod continuity;
+mod derivatives;
 mod discrete_kinds;
+mod energies;
 mod hard_cases;
 mod judge;
+mod laws;
 mod limits;
 mod random_equilibria;
 mod random_problems;

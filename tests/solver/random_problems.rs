@@ -9,12 +9,12 @@ use proptest::prelude::*;
 
 /// A problem in plain numbers, to be varied.
 #[derive(Clone, Debug)]
-struct Numbers {
-    tangents: usize,
-    friction: Vec<f64>,
-    gap: Vec<f64>,
-    free: Vec<f64>,
-    compliance: Mat<f64>,
+pub(crate) struct Numbers {
+    pub(crate) tangents: usize,
+    pub(crate) friction: Vec<f64>,
+    pub(crate) gap: Vec<f64>,
+    pub(crate) free: Vec<f64>,
+    pub(crate) compliance: Mat<f64>,
 }
 
 impl Numbers {
@@ -22,12 +22,20 @@ impl Numbers {
         1 + self.tangents
     }
 
-    fn solve(&self) -> (ContactProblem, Outcome) {
+    pub(crate) fn solve(&self) -> (ContactProblem, Outcome) {
+        self.solve_to(Settings::default().tolerance)
+    }
+
+    pub(crate) fn solve_to(&self, tolerance: f64) -> (ContactProblem, Outcome) {
+        let settings = Settings {
+            tolerance,
+            ..Settings::default()
+        };
         let tangents = vec![self.tangents; self.gap.len()];
         let operator = Operator::from_compliance(self.compliance.clone()).unwrap();
         let (friction, gap, free) = (self.friction.clone(), self.gap.clone(), self.free.clone());
         let problem = ContactProblem::new(&tangents, friction, gap, free, operator).unwrap();
-        let outcome = solve(&problem, &Settings::default()).unwrap();
+        let outcome = solve(&problem, &settings).unwrap();
         (problem, outcome)
     }
 
@@ -39,7 +47,7 @@ impl Numbers {
 }
 
 /// `G = AᵀA/n + shift · 1` with entries of A in [−1, 1]: strongly coupled where the shift is small.
-fn numbers(
+pub(crate) fn numbers(
     contacts: std::ops::RangeInclusive<usize>,
     tangents: std::ops::RangeInclusive<usize>,
     friction: f64,

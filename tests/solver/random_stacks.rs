@@ -3,7 +3,7 @@
 //! within a twentieth of what rigid blocks could hold.
 
 use dpana::report::Beyond;
-use dpana::{Scene, Solution, Status, limit, solve};
+use dpana::{Scene, Solution, Status, rigid_limit, solve};
 use proptest::prelude::*;
 use serde_json::{Value, json};
 
@@ -156,7 +156,7 @@ impl Stack {
 
 /// Multiple of the pull that rigid blocks hold.
 fn pull_limit(scene: &Scene) -> f64 {
-    let limits = limit(scene).unwrap();
+    let limits = rigid_limit(scene).unwrap();
     match limits.loads.last().map(|load| &load.beyond) {
         Some(Beyond::Grows { factor, .. }) => *factor,
         other => unreachable!("{other:?}"),

@@ -1,11 +1,9 @@
 //! Blocks on blocks: scenes of several bodies, built in code.
 #![allow(dead_code)]
 
-use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded, rectangle};
+use dpana::body::{CellKind, Group, Mesh, box_mesh, graded, rectangle};
 use dpana::report::Report;
-use dpana::scene::{
-    MeshSource, SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport, SceneSurface,
-};
+use dpana::scene::{SceneBody, SceneContact, SceneMaterial, SceneModel, SceneSupport};
 use dpana::{Scene, Solution, Status, solve};
 
 /// A block between two corners with `cells` along each axis, their sizes graded; in 2D along
@@ -21,13 +19,9 @@ pub(crate) fn block(kind: CellKind, low: [f64; 3], high: [f64; 3], cells: [usize
 /// A body of one material, without supports; in 2D in plane strain.
 pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBody {
     SceneBody {
-        name: name.to_owned(),
         model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
-        mesh: MeshSource::Given(mesh),
         materials: vec![SceneMaterial::new(young, poisson)],
-        supports: Vec::new(),
-        loads: Vec::new(),
-        foundation: Vec::new(),
+        ..SceneBody::new(name, mesh)
     }
 }
 
@@ -45,18 +39,7 @@ pub(crate) fn hold(mut body: SceneBody, group: &str, axis: usize, value: f64) ->
 
 /// A contact of `own` body and group against `other` body and group.
 pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneContact {
-    SceneContact {
-        body: Some(own[0].to_owned()),
-        group: own[1].to_owned(),
-        obstacle: None,
-        against: Some(SceneSurface {
-            body: Some(other[0].to_owned()),
-            group: other[1].to_owned(),
-        }),
-        friction,
-        rounded: None,
-        gap: 0.0,
-    }
+    SceneContact::between(own, other, friction)
 }
 
 pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scene {
@@ -71,44 +54,22 @@ pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scen
 pub(crate) fn certified(scene: &Scene) -> (Solution, Report) {
     let solution = solve(scene).unwrap();
     let faults: Vec<_> = solution.fits().iter().map(|fit| fit.fault()).collect();
-    assert_eq!(solution.status(), Status::Certified, "{faults:?}");
+    assert_eq!(
+        solution.status(),
+        Status::Certified,
+        "{faults:?} {:?}",
+        solution.outcome().shortfall
+    );
     let report = solution.report().unwrap();
     (solution, report)
 }
 
-/// The cells of a group with their nodes and surface groups, as a mesh of its own.
+/// The cells of a group with what belongs to them, as a mesh of their own.
 pub(crate) fn part(mesh: &Mesh, group: &str) -> Mesh {
     let Group::Cells(cells) = &mesh.groups[group] else {
         unreachable!("{group} is no group of cells");
     };
-    let mut number = vec![None; mesh.nodes.len()];
-    let mut part = Mesh::new(mesh.dimension, Vec::new());
-    for &cell in cells {
-        let cell = mesh.cell(cell);
-        let nodes = cell.nodes.iter().map(|&node| {
-            *number[node].get_or_insert_with(|| {
-                part.nodes.push(mesh.nodes[node]);
-                part.nodes.len() - 1
-            })
-        });
-        let nodes: Vec<usize> = nodes.collect();
-        part.push_cell(cell.kind, &nodes);
-    }
-    for (name, group) in &mesh.groups {
-        let Group::Facets(facets) = group else {
-            continue;
-        };
-        let renumbered = facets.iter().filter_map(|facet| {
-            let nodes = facet.nodes.iter().map(|node| number[*node]);
-            let nodes = nodes.collect::<Option<Vec<usize>>>()?;
-            Some(Facet { nodes })
-        });
-        let facets: Vec<Facet> = renumbered.collect();
-        if !facets.is_empty() {
-            part.groups.insert(name.clone(), Group::Facets(facets));
-        }
-    }
-    part
+    mesh.part(cells)
 }
 
 /// The body with one component given at a node of its mesh.

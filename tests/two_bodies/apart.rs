@@ -18,6 +18,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             nodes: nodes.map(|(node, _)| node).collect(),
             displacement,
             offsets: Vec::new(),
+            axes: Vec::new(),
         }
     };
     let supports = vec![
@@ -39,6 +40,8 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
             pressure,
         }],
         foundation: vec![],
+        formulation: dpana::body::Formulation::Standard,
+        ties: Vec::new(),
     }
 }
 
@@ -60,8 +63,10 @@ fn on_floor(index: usize, body: &Body) -> ContactPair {
             normal: [0.0, 1.0, 0.0],
         }),
         friction: 0.3,
+        law: dpana::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
+        dragged: false,
     }
 }
 
@@ -105,6 +110,7 @@ impl Solved {
             self.condensed.surface(),
             self.condensed.problem(),
             &self.outcome.verdict.displacement,
+            &[],
         )
         .unwrap()
     }

@@ -4,7 +4,7 @@
 
 use dpana::body::CellKind;
 use dpana::report::{Beyond, Report};
-use dpana::{Scene, Status, limit, solve};
+use dpana::{Scene, Status, rigid_limit, solve};
 use serde_json::{Value, json};
 
 use crate::stacks::certified;
@@ -85,7 +85,7 @@ fn a_block_topples_about_the_end_of_the_one_below() {
                     json!([{"body_force": [0, -24000]}, {"group": "left", "traction": [1, 0]}]);
                 let scene =
                     json!({"bodies": [below, above], "contacts": [against(upper_first, 10.0)]});
-                let limits = limit(&from_json(&scene)).unwrap();
+                let limits = rigid_limit(&from_json(&scene)).unwrap();
                 let Beyond::Grows { factor, .. } = &limits.loads[1].beyond else {
                     unreachable!("{limits:?}");
                 };

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use dpana::body::{CellKind, Facet, Group, Mesh};
 use dpana::report::{Beyond, Report};
 use dpana::scene::SceneBody;
-use dpana::{Scene, limit};
+use dpana::{Scene, rigid_limit};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
 
@@ -89,7 +89,7 @@ fn a_solid_block_topples_about_the_end_of_the_one_below() {
             above["loads"] =
                 json!([{"body_force": [0, 0, -24000]}, {"group": "left", "traction": [1, 0, 0]}]);
             let scene = json!({"bodies": [below, above], "contacts": [against(upper_first, 10.0)]});
-            let limits = limit(&from_json(&scene)).unwrap();
+            let limits = rigid_limit(&from_json(&scene)).unwrap();
             let Beyond::Grows { factor, .. } = &limits.loads[1].beyond else {
                 unreachable!("{limits:?}");
             };

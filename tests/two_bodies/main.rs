@@ -11,10 +11,13 @@ mod apart;
 mod balance;
 mod covered;
 mod covered_in_space;
+mod elastic_limits;
 mod fits;
 mod floating;
 mod goodman_coupled;
 mod hertz;
+mod laws;
+#[cfg(feature = "cli")]
 mod metamorphic;
 mod patch;
 mod quadratic;

@@ -20,7 +20,7 @@
 use faer::{Col, Mat};
 
 use crate::alternation::condition::{Factored, times};
-use crate::alternation::laws::{Law, Local, roots};
+use crate::alternation::laws::{self, Law, Local, roots};
 use crate::alternation::settings::Clock;
 use crate::problem::ContactProblem;
 
@@ -242,18 +242,8 @@ impl<'a> JoinedPath<'a> {
             }
         }
         let (joined, beyond) = (self.joined(&at), self.beyond(&at));
-        let missing = laws.iter().flat_map(|law| {
-            let local = self.local(law.contact, &at, &beyond);
-            law.missing(&local).into_iter().take(law.block.len())
-        });
-        let rate = laws.iter().flat_map(|law| {
-            let mut moved = [0.0; 3];
-            for (moved, k) in moved.iter_mut().zip(law.block.clone()) {
-                *moved = joined[k] - at.reaction[k];
-            }
-            law.rows(moved, None).into_iter().take(law.block.len())
-        });
-        let (missing, rate) = (missing.collect(), rate.collect());
+        let missing = laws::missing(&laws, |contact| self.local(contact, &at, &beyond)).collect();
+        let rate = laws::rows(&laws, |k| joined[k] - at.reaction[k], None).collect();
         let matrix = Factored::new(&self.matrix(&laws, &unknowns, at.part));
         self.products += matrix.products() + 2.0 * (self.roots.len() as f64).powi(2);
         Piece {
@@ -270,21 +260,10 @@ impl<'a> JoinedPath<'a> {
         let mut matrix = Mat::zeros(unknowns.len(), unknowns.len());
         for (j, &unknown) in unknowns.iter().enumerate() {
             let moved = self.problem.compliance().col_as_slice(unknown);
-            let mut rows = matrix.col_as_slice_mut(j).iter_mut();
-            for law in laws {
-                let mut local = [0.0; 3];
-                for (local, k) in local.iter_mut().zip(law.block.clone()) {
-                    *local = part * self.roots[k] * moved[k] * self.roots[unknown];
-                }
-                let own = law.block.clone().position(|k| k == unknown);
-                if let Some(own) = own {
-                    local[own] += 1.0 - part;
-                }
-                let entries = law.rows(local, own).into_iter().take(law.block.len());
-                rows.by_ref()
-                    .zip(entries)
-                    .for_each(|(entry, value)| *entry = value);
-            }
+            let moved = |k: usize| part * self.roots[k] * moved[k] * self.roots[unknown];
+            let rows = laws::rows(laws, moved, Some((unknown, 1.0 - part)));
+            let entries = matrix.col_as_slice_mut(j).iter_mut().zip(rows);
+            entries.for_each(|(entry, value)| *entry = value);
         }
         matrix
     }
@@ -300,16 +279,8 @@ impl<'a> JoinedPath<'a> {
     /// Displacement beyond the gaps, scaled.
     fn beyond(&self, at: &Place) -> Vec<f64> {
         let joined = self.joined(at);
-        let free = self.problem.free_displacement();
-        let mut beyond = free.to_vec();
-        for (&n, gap) in self
-            .problem
-            .normals()
-            .iter()
-            .zip(self.problem.initial_gap())
-        {
-            beyond[n] -= gap;
-        }
+        let free = self.problem.free_displacement().to_vec();
+        let mut beyond = self.problem.beyond(free);
         for (k, w) in beyond.iter_mut().enumerate() {
             let moved = (1.0 - at.part) * at.reaction[k] + at.part * joined[k];
             *w = self.roots[k] * *w + moved;
@@ -322,10 +293,7 @@ impl<'a> JoinedPath<'a> {
         let mut local = Local {
             reaction: [0.0; 3],
             beyond: [0.0; 3],
-            friction: match self.roots[block.clone()] {
-                [normal, tangential, ..] => self.problem.friction()[contact] * normal / tangential,
-                _ => 0.0,
-            },
+            limits: laws::scaled_limits(self.problem, &self.roots, contact),
             step: 1.0,
         };
         for (k, unknown) in block.enumerate() {
@@ -337,11 +305,7 @@ impl<'a> JoinedPath<'a> {
     /// Size of F.
     fn residual(&self, at: &Place) -> f64 {
         let beyond = self.beyond(at);
-        (0..self.problem.contacts()).fold(0.0, |sum: f64, contact| {
-            let defect = self.local(contact, at, &beyond).defect();
-            let entries = self.problem.block(contact).zip(defect);
-            entries.fold(sum, |sum, (_, r)| sum.hypot(r))
-        })
+        laws::residual(self.problem, |contact| self.local(contact, at, &beyond))
     }
 
     /// From here along a direction.

@@ -41,7 +41,7 @@ const STILL: f64 = 1e-13;
 
 /// How a path ended.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum End {
+pub(crate) enum End {
     /// At the λ asked for, with this reaction.
     Reached(Vec<f64>),
     /// Where it turned back.
@@ -51,14 +51,14 @@ pub(super) enum End {
 }
 
 /// A path on its way.
-pub(super) struct PlanePath<'a> {
+pub(crate) struct PlanePath<'a> {
     piece: Piece<'a>,
     /// λ.
     parameter: f64,
     /// Sign of the change of λ.
     way: f64,
     /// Contacts that changed so far, one after the other.
-    pub(super) changes: usize,
+    pub(crate) changes: usize,
     products: f64,
     bound: Bound,
 }
@@ -71,8 +71,8 @@ struct Bound {
 }
 
 impl<'a> PlanePath<'a> {
-    /// From surfaces far apart; none if a contact has two tangents, or bodies float.
-    pub(super) fn of_approach(problem: &'a ContactProblem) -> Option<Self> {
+    /// From surfaces far apart; none if a contact has two tangents or another law than Coulomb's, or bodies float.
+    pub(in crate::alternation) fn of_approach(problem: &'a ContactProblem) -> Option<Self> {
         let mut drive = Col::zeros(problem.unknowns());
         let mut deepest = 0.0_f64;
         for (&n, gap) in problem.offsets().iter().zip(problem.initial_gap()) {
@@ -89,7 +89,7 @@ impl<'a> PlanePath<'a> {
 
     /// From a state with λ = 1 of a problem that is given with λ = 0, driven by `drive` in metre per
     /// unknown; none if a contact has two tangents, or bodies float.
-    pub(super) fn back(
+    pub(crate) fn back(
         problem: &'a ContactProblem,
         outcome: &Outcome,
         drive: &[f64],
@@ -118,7 +118,7 @@ impl<'a> PlanePath<'a> {
     ) -> Option<Self> {
         let blocks = problem.offsets().windows(2);
         let plane = blocks.into_iter().all(|ends| ends[1] - ends[0] <= 2);
-        (plane && problem.floating().is_none()).then(|| Self {
+        (plane && problem.floating().is_none() && problem.laws().is_none()).then(|| Self {
             piece: Piece {
                 problem,
                 drive,
@@ -137,13 +137,13 @@ impl<'a> PlanePath<'a> {
     }
 
     /// The same, left when the time of a solve is over.
-    pub(super) fn until(mut self, clock: Clock) -> Self {
+    pub(in crate::alternation) fn until(mut self, clock: Clock) -> Self {
         self.bound.clock = clock;
         self
     }
 
     /// Follows the path down to a λ, round its turns if it may turn.
-    pub(super) fn follow(&mut self, end: f64, turning: bool) -> End {
+    pub(crate) fn follow(&mut self, end: f64, turning: bool) -> End {
         let mut next = self.piece.line(self.parameter);
         while let Some(line) = next {
             let (stride, broken) = match self.first_to_break(&line, end) {

@@ -76,6 +76,28 @@ fn widening(body: &Body) -> f64 {
     solve(body)[0] / exact
 }
 
+/// Kinds with incompatible modes, which need no means.
+fn with_modes(mut body: Body) -> Body {
+    body.formulation = crate::body::Formulation::IncompatibleModes;
+    body
+}
+
+#[test]
+fn cells_with_incompatible_modes_do_not_lock_either() {
+    for kind in [CellKind::Quad4, CellKind::Hex8] {
+        let [coarse, fine] =
+            [4, 8].map(|count| (widening(&with_modes(tube(kind, count))) - 1.0).abs());
+        assert!(
+            fine < 0.006 && fine < 0.4 * coarse,
+            "{kind:?}: {coarse} {fine}"
+        );
+        let bent = deflection(&with_modes(beam(kind, 0.4999)));
+        assert!((bent - 1.0).abs() < 0.01, "{kind:?}: {bent}");
+        let fine = axial_stress_error(&with_modes(tube(kind, 8)));
+        assert!(fine < 0.1, "{kind:?}: {fine}");
+    }
+}
+
 #[test]
 fn an_incompressible_tube_widens_as_lame_says_and_the_error_falls_with_refinement() {
     for kind in CellKind::LINEAR {
@@ -142,6 +164,7 @@ fn beam(kind: CellKind, poisson: f64) -> Body {
                 nodes: vec![node],
                 displacement,
                 offsets: Vec::new(),
+                axes: Vec::new(),
             });
         }
     }

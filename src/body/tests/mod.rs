@@ -1,5 +1,7 @@
 //! Bodies that tests share, and tests of whole bodies: locking, rings.
 
+mod bending;
 mod locking;
+mod oriented;
 mod rings;
 pub(crate) mod samples;

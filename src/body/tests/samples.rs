@@ -5,7 +5,8 @@
 use nalgebra::Vector3;
 
 use crate::body::{
-    Body, CellKind, Facet, Group, Material, Mesh, Model, Support, box_mesh, graded, rectangle,
+    Body, CellKind, Facet, Group, Material, Mesh, Model, Support, box_mesh, graded, mixed_box,
+    rectangle,
 };
 
 /// A block of 2 × 1 (× 1) m with 4 × 2 (× 2) uneven cells, `E = 10 Pa`, `ν = 0.3`.
@@ -33,6 +34,8 @@ pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
         supports: Vec::new(),
         loads: Vec::new(),
         foundation: vec![],
+        formulation: crate::body::Formulation::Standard,
+        ties: Vec::new(),
     }
 }
 
@@ -47,13 +50,19 @@ pub(crate) fn support(nodes: &[usize], axes: &[usize]) -> Support {
         nodes: nodes.to_vec(),
         displacement,
         offsets: Vec::new(),
+        axes: Vec::new(),
     }
 }
 
 /// The same block with every inner corner moved by a fifth of a cell or less, its sides straight.
 pub(crate) fn distorted(kind: CellKind) -> Body {
     let mut body = block(kind);
-    let axes = kind.dimension();
+    distort(&mut body);
+    body
+}
+
+fn distort(body: &mut Body) {
+    let axes = body.mesh.dimension;
     let sides = [2.0, 1.0, 1.0];
     for position in &mut body.mesh.nodes {
         let inside = (0..axes).all(|j| position[j] > 0.0 && position[j] < sides[j]);
@@ -65,7 +74,6 @@ pub(crate) fn distorted(kind: CellKind) -> Body {
         }
     }
     straighten(&mut body.mesh);
-    body
 }
 
 /// Moves the nodes between corners to where straight sides have them.
@@ -104,6 +112,7 @@ pub(crate) fn hold(body: &mut Body, name: &str, axis: usize) {
         nodes: nodes.collect(),
         displacement,
         offsets: Vec::new(),
+        axes: Vec::new(),
     });
 }
 
@@ -152,4 +161,18 @@ pub(crate) fn complaint(kind: CellKind, change: impl Fn(&mut Body)) -> String {
 pub(crate) fn assert_says(kind: CellKind, change: impl Fn(&mut Body), parts: &[&str]) {
     let found = complaint(kind, change);
     assert!(parts.iter().all(|part| found.contains(part)), "{found}");
+}
+
+/// A distorted block whose upright columns are hexahedra, pyramids and prisms in turn, linear or quadratic.
+pub(crate) fn mixed(quadratic: bool) -> Body {
+    let kinds = match quadratic {
+        false => [CellKind::Hex8, CellKind::Pyramid5, CellKind::Prism6],
+        true => [CellKind::Hex20, CellKind::Pyramid13, CellKind::Prism15],
+    };
+    let xs = graded(0.0, 2.0, 4, 2.0).unwrap();
+    let ys = graded(0.0, 1.0, 3, 1.5).unwrap();
+    let kind = |[i, j, _]: [usize; 3]| kinds[(i + j) % 3];
+    let mut body = body(mixed_box(&xs, &ys, &ys, kind).unwrap(), Model::Solid, 0.3);
+    distort(&mut body);
+    body
 }

@@ -9,7 +9,7 @@ use crate::condensation::CondensationWork;
 use crate::condensation::condensed_body::CondensedBody;
 use crate::condensation::grounding::Grounding;
 use crate::condensation::interface::Interface;
-use crate::condensation::load_case::Action;
+use crate::condensation::load_case::Given;
 use crate::condensation::supported::SupportedBody;
 use crate::contact::frame::Stance;
 use crate::contact::{ContactNode, ContactSurface};
@@ -85,7 +85,7 @@ impl Bed {
             let mut normal = [tilt.sin(), 0.0, 0.0];
             normal[self.dimension - 1] = -tilt.cos();
             let Stance::Free { frame, kept } =
-                Stance::new(self.dimension, normal, [on_symmetry, false, false])
+                Stance::new(self.dimension, normal, &[on_symmetry, false, false].into())
             else {
                 continue;
             };
@@ -115,14 +115,18 @@ impl Bed {
             nodes: self.contacts.clone(),
             ..ContactSurface::default()
         };
-        let interface = Interface::new(&surface, 0, self.dimension, &self.prescribed);
+        let interface = Interface::new(&surface, 0, self.dimension, (&self.prescribed, None));
         let supported = SupportedBody {
             name: "bed",
             nodes: &nodes,
             dimension: self.dimension,
             stiffness: self.lattice.stiffness(),
             load: self.load.clone(),
-            prescribed: self.prescribed.clone(),
+            given: Given {
+                prescribed: self.prescribed.clone(),
+                ..Given::default()
+            },
+            dependence: None,
             grounding: Grounding::none(),
         };
         let mut work = CondensationWork::default();
@@ -131,12 +135,8 @@ impl Bed {
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
         let (count, unknowns) = (tangents.len(), body.action.free_displacement.len());
         let mut free = vec![0.0; unknowns];
-        let Action {
-            prescribed,
-            free_displacement,
-            ..
-        } = &body.action;
-        interface.add_displacement(prescribed, free_displacement, &mut free);
+        let action = &body.action;
+        interface.add_displacement(action, &action.free_displacement, &mut free);
         let operator = of_interface.operator()?;
         let problem = ContactProblem::new(
             &tangents,

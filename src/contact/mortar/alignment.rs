@@ -16,6 +16,8 @@
 
 use nalgebra::{Matrix2, Vector2, Vector3};
 
+use super::super::held::Directions;
+
 /// Largest change of a weight. Beyond it the sides are not nearly parallel there, or far from each
 /// other: what is left of `v` across the normal is for the normal to follow.
 const LARGEST: f64 = 0.1;
@@ -27,17 +29,17 @@ const ROUND_OFF: f64 = 1e-9;
 /// Spread of the positions, relative to the largest, that is none.
 const RANK: f64 = 1e-10;
 
-/// Corrects the weights in place; positions of side 2 in metre, nothing moves along `still` axes.
+/// Corrects the weights in place; positions of side 2 in metre, nothing moves along `still` directions.
 pub(super) fn align(
     weights: &mut [(usize, f64)],
     positions: &[[f64; 3]],
     from: [f64; 3],
     normal: Vector3<f64>,
-    still: [bool; 3],
+    still: &Directions,
 ) {
     let axes = tangents(normal);
     let across = |vector: Vector3<f64>| {
-        let vector = movable(vector, still);
+        let vector = still.across(vector);
         Vector2::from(axes.map(|axis| axis.dot(&vector)))
     };
     // Relative to x: large coordinates shall not cost digits.
@@ -64,37 +66,32 @@ pub(super) fn align(
 }
 
 /// Whether a gap vector has a part across the normal, `size` being the distance of the farthest node: by
-/// more than round-off of that, along axes that are not `still`.
+/// more than round-off of that, along directions that are not `still`.
 pub(super) fn is_across(
     normal: Vector3<f64>,
     gap: Vector3<f64>,
     size: f64,
-    still: [bool; 3],
+    still: &Directions,
 ) -> bool {
-    let gap = movable(gap, still);
+    let gap = still.across(gap);
     (gap - normal * gap.dot(&normal)).norm() > ROUND_OFF * size
 }
 
-/// The normal that a gap vector asks for: its own direction but for axes that are `still`. A vector that
+/// The normal that a gap vector asks for: its own direction but for directions that are `still`. A vector that
 /// is more across the normal than along it says nothing.
 pub(super) fn follow(
     normal: Vector3<f64>,
     gap: Vector3<f64>,
     size: f64,
-    still: [bool; 3],
+    still: &Directions,
 ) -> Vector3<f64> {
-    let movable = movable(gap, still);
+    let movable = still.across(gap);
     let along = movable.dot(&normal);
     let steep = (movable - normal * along).norm() >= along.abs();
     if steep || !is_across(normal, gap, size, still) {
         return normal;
     }
     (movable * along).normalize()
-}
-
-fn movable(vector: Vector3<f64>, still: [bool; 3]) -> Vector3<f64> {
-    let moving = still.map(|still| if still { 0.0 } else { 1.0 });
-    vector.component_mul(&Vector3::from(moving))
 }
 
 /// Solves `spread · multiplier = stray` along the directions in which the positions spread.
@@ -146,7 +143,13 @@ mod tests {
         // Equal weights act at (½, ½); the node is at (0.52, 0.47).
         let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
         let (from, normal) = (Vector3::new(0.52, 0.47, 0.0), Vector3::z());
-        align(&mut weights, &SQUARE, from.into(), normal, [false; 3]);
+        align(
+            &mut weights,
+            &SQUARE,
+            from.into(),
+            normal,
+            &Directions::default(),
+        );
         assert!(stray(&weights, from, normal).norm() < 1e-16);
         assert!((weights.iter().map(|entry| entry.1).sum::<f64>() - 1.0).abs() < 1e-15);
         // Least change: δ = ±½ · (0.02, −0.03) along x and y.
@@ -160,7 +163,13 @@ mod tests {
     fn nodes_on_one_line_take_what_they_can() {
         let mut weights = [(0, 0.5), (1, 0.5)];
         let (from, normal) = (Vector3::new(0.52, 0.03, 0.0), Vector3::z());
-        align(&mut weights, &SQUARE, from.into(), normal, [false; 3]);
+        align(
+            &mut weights,
+            &SQUARE,
+            from.into(),
+            normal,
+            &Directions::default(),
+        );
         let left = stray(&weights, from, normal);
         assert!(
             (left - Vector3::new(0.0, -0.03, 0.0)).norm() < 1e-15,
@@ -177,7 +186,7 @@ mod tests {
             &SQUARE,
             from.into(),
             normal,
-            [true, false, false],
+            &[true, false, false].into(),
         );
         let left = stray(&weights, from, normal);
         assert!(
@@ -192,7 +201,7 @@ mod tests {
             &SQUARE,
             from.into(),
             normal,
-            [true, true, false],
+            &[true, true, false].into(),
         );
         assert_eq!(weights, before);
     }
@@ -201,20 +210,44 @@ mod tests {
     fn weights_far_beside_the_line_go_part_of_the_way_and_the_normal_the_rest() {
         let mut weights = [0, 1, 2, 3].map(|k| (k, 0.25));
         let (from, normal) = (Vector3::new(0.9, 0.5, 0.0), Vector3::z());
-        align(&mut weights, &SQUARE, from.into(), normal, [false; 3]);
+        align(
+            &mut weights,
+            &SQUARE,
+            from.into(),
+            normal,
+            &Directions::default(),
+        );
         // (−0.4, 0) to go: 0.1 for each node moves the mean by 0.2.
         assert!((weights[1].1 - 0.35).abs() < 1e-15 && (weights[0].1 - 0.15).abs() < 1e-15);
         let gap = Vector3::new(-0.2, 0.0, 0.3);
         assert!((stray(&weights, from, normal).x - gap.x).abs() < 1e-15);
-        assert!((follow(normal, gap, 1.0, [false; 3]) - gap.normalize()).norm() < 1e-15);
-        assert!((follow(normal, -gap, 1.0, [false; 3]) - gap.normalize()).norm() < 1e-15);
-        assert_eq!(follow(normal, gap, 1.0, [true, false, false]), normal);
+        assert!(
+            (follow(normal, gap, 1.0, &Directions::default()) - gap.normalize()).norm() < 1e-15
+        );
+        assert!(
+            (follow(normal, -gap, 1.0, &Directions::default()) - gap.normalize()).norm() < 1e-15
+        );
         assert_eq!(
-            follow(normal, Vector3::new(0.3, 0.0, 0.2), 1.0, [false; 3]),
+            follow(normal, gap, 1.0, &[true, false, false].into()),
+            normal
+        );
+        assert_eq!(
+            follow(
+                normal,
+                Vector3::new(0.3, 0.0, 0.2),
+                1.0,
+                &Directions::default()
+            ),
             normal
         );
         let mut one = [(2, 1.0)];
-        align(&mut one, &SQUARE, [0.9, 0.5, 0.0], Vector3::z(), [false; 3]);
+        align(
+            &mut one,
+            &SQUARE,
+            [0.9, 0.5, 0.0],
+            Vector3::z(),
+            &Directions::default(),
+        );
         assert_eq!(one, [(2, 1.0)]);
     }
 }

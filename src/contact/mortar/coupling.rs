@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
+use super::super::held::Directions;
 use super::super::lift::{Distances, lifts};
 use super::alignment::{align, follow, is_across};
 use super::check::Surface;
@@ -58,7 +59,7 @@ pub(in crate::contact) fn couple(
     let side2 = Surface::new(mesh2, facets2, &format!("{place}.opposite"))?;
     let mut mortar = average(&Coverage::new(&side1, &side2, place)?, model, place)?;
     for node in &mut mortar.nodes {
-        node.look_along(node.normal, [false; 3], mesh1, mesh2);
+        node.look_along(node.normal, &Directions::default(), mesh1, mesh2);
     }
     mortar.lift();
     Ok(mortar)
@@ -220,11 +221,11 @@ impl Mortar {
 
 impl MortarNode {
     /// Makes a unit vector the normal: the weights follow (C10), and the gap. Where they would have to
-    /// change much, the normal follows as well. Across it, axes may be `still`: nothing moves along them.
+    /// change much, the normal follows as well. Across it, directions may be `still`: nothing moves along them.
     pub(in crate::contact) fn look_along(
         &mut self,
         normal: [f64; 3],
-        still: [bool; 3],
+        still: &Directions,
         mesh1: &Mesh,
         mesh2: &Mesh,
     ) {
@@ -249,7 +250,7 @@ impl MortarNode {
         &mut self,
         x: Vector3<f64>,
         normal: Vector3<f64>,
-        still: [bool; 3],
+        still: &Directions,
         mesh2: &Mesh,
     ) -> (Vector3<f64>, f64) {
         align(&mut self.opposite, &mesh2.nodes, x.into(), normal, still);

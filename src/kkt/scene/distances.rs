@@ -14,6 +14,7 @@ use nalgebra::Vector3;
 use super::measure::Measure;
 use super::meeting::{Meeting, Sample};
 use super::skin::{Place, Skin};
+use crate::contact::RigidMotion;
 
 /// Part of the change of the relative displacement around a contact by which all of its surroundings
 /// may stand off the other side: the mean under a weight of two signs is none of its values.
@@ -84,6 +85,15 @@ impl Nearby {
         }
     }
 
+    /// The same sides moved together by what is between them, in metre; `given` is negative where that is pressed.
+    pub(super) fn apart(self, given: f64) -> Self {
+        let gap = Range {
+            low: self.gap.low - given,
+            high: self.gap.high - given,
+        };
+        Self { gap, ..self }
+    }
+
     /// How deep all of a side is in the other.
     pub(super) fn overlap(&self, rounded: f64, contact: usize) -> Measure {
         let depth = (-self.gap.low).max(0.0);
@@ -112,12 +122,12 @@ pub(super) struct Distances(Vec<Nearby>);
 impl Distances {
     /// - `side`: that carries the contacts, 0 or 1;
     /// - `displacements`: per body and unknown, in metre;
-    /// - `moved`: how far the obstacle has moved; `opening`: added to all gaps, both in metre.
+    /// - `moved`: how the obstacle has moved; `opening`: added to all gaps, in metre.
     pub(super) fn new(
         meeting: &Meeting,
         side: usize,
         displacements: &[&[f64]],
-        moved: [f64; 3],
+        moved: RigidMotion,
         opening: f64,
     ) -> Self {
         let faces = meeting.skins.get(side).map_or(0, |skin| skin.faces.len());
@@ -149,12 +159,26 @@ impl Distances {
 }
 
 /// By how much a sample's sides move apart, in metre.
-fn approach(meeting: &Meeting, sample: &Sample, displacements: &[&[f64]], moved: [f64; 3]) -> f64 {
+fn approach(
+    meeting: &Meeting,
+    sample: &Sample,
+    displacements: &[&[f64]],
+    moved: RigidMotion,
+) -> f64 {
     let of = |side: usize| match (&sample.places[side], meeting.skins.get(side)) {
         (Some(place), Some(skin)) => displacement(place, skin, displacements),
-        _ => Vector3::from(moved),
+        _ => rigid(sample, moved),
     };
     (of(1) - of(0)).dot(&sample.towards)
+}
+
+/// Displacement of the point of a rigid side that a sample faces.
+fn rigid(sample: &Sample, moved: RigidMotion) -> Vector3<f64> {
+    let faced = sample.places[0]
+        .as_ref()
+        .map(|place| place.position + sample.towards * sample.distance);
+    let arm = faced.map_or(Vector3::zeros(), |faced| faced - Vector3::from(moved.about));
+    Vector3::from(moved.translation) + Vector3::from(moved.rotation).cross(&arm)
 }
 
 fn displacement(place: &Place, skin: &Skin, displacements: &[&[f64]]) -> Vector3<f64> {

@@ -42,7 +42,7 @@ impl Unanswered {
             let contact = state.contact_forces();
             let mut rest = vec![0.0; contact.len()];
             let mut inner = vec![0.0; contact.len()];
-            let axes = state.dimension();
+            let (axes, held) = (state.dimension(), state.held());
             for unknown in nodes.iter().flat_map(|node| node * axes..(node + 1) * axes) {
                 let Some(row) = state.stiffness.outer_view(unknown) else {
                     continue;
@@ -53,7 +53,7 @@ impl Unanswered {
                     (sum, size) = (sum + term, size + term.abs());
                 }
                 inner[unknown] = size;
-                if state.prescribed[unknown].is_none() {
+                if !held[unknown] {
                     rest[unknown] = sum - state.load[unknown] - contact[unknown];
                 }
             }

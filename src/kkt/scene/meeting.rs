@@ -8,10 +8,10 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
-use super::rigid::see;
+use super::rigid::Sight;
 use super::skin::{Place, Skin};
 use crate::body::Body;
-use crate::contact::{ContactPair, Obstacle, Opposite};
+use crate::contact::{ContactPair, Opposite};
 
 /// Part of the distance by which a foot may lie beside the perpendicular and be one.
 const UPRIGHT: f64 = 1e-3;
@@ -58,11 +58,12 @@ impl Meeting {
         if let Opposite::Surface { body, facets } = &pair.opposite {
             skins.extend(skin(*body, facets));
         }
-        let samples: Vec<Sample> = match (&pair.opposite, &skins[..]) {
-            (Opposite::Obstacle(obstacle), [own]) => own
-                .samples()
-                .filter_map(|place| face(place, obstacle))
-                .collect(),
+        let mut samples: Vec<Sample> = match (&pair.opposite, &skins[..]) {
+            (Opposite::Obstacle(obstacle), [own]) => {
+                let sight = Sight::new(obstacle);
+                let places = own.samples();
+                places.filter_map(|place| face(place, &sight)).collect()
+            }
             (_, [first, second]) => {
                 let there = first.samples().filter_map(|place| meet(place, second));
                 let back = second.samples().filter_map(|place| meet(place, first));
@@ -70,6 +71,10 @@ impl Meeting {
             }
             _ => Vec::new(),
         };
+        if pair.law.bilateral {
+            // Tied as they are drawn: what is between the sides is none of the contact's business.
+            samples.iter_mut().for_each(|sample| sample.distance = 0.0);
+        }
         let mut of_face = [0, 1].map(|side| {
             let faces = skins.get(side).map_or(0, |skin: &Skin| skin.faces.len());
             vec![Vec::new(); faces]
@@ -157,8 +162,8 @@ impl Sample {
 }
 
 /// A place and the obstacle in front of it.
-fn face(place: Place, obstacle: &Obstacle) -> Option<Sample> {
-    let (distance, towards) = see(obstacle, place.position)?;
+fn face(place: Place, sight: &Sight<'_>) -> Option<Sample> {
+    let (distance, towards) = sight.see(place.position)?;
     (place.normal.dot(&towards) > FACING).then_some(Sample {
         places: [Some(place), None],
         towards,

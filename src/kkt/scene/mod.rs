@@ -22,6 +22,7 @@ mod seat;
 mod skin;
 mod tile;
 mod tree;
+mod triangles;
 
 pub use measure::Measure;
 
@@ -29,8 +30,9 @@ use super::body_state::BodyState;
 use super::resultant::nodal_lengths;
 use super::sides::{block, check_sides};
 use crate::body::Body;
-use crate::contact::{ContactPair, ContactSurface};
+use crate::contact::{ContactPair, ContactSurface, RigidMotion};
 use crate::error::{Error, check_length};
+use crate::problem::Law;
 use distances::Distances;
 use forces::{Forces, Unanswered};
 use meeting::Meeting;
@@ -62,8 +64,8 @@ pub struct SceneGeometry {
 /// What acts on the pairs beside what the bodies know.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings<'a> {
-    /// Motion of the obstacle per pair, in metre; missing ones stand still.
-    pub obstacles: &'a [[f64; 3]],
+    /// Motion of the obstacle per pair; missing ones stand still.
+    pub obstacles: &'a [RigidMotion],
     /// What is added to all gaps of a pair, in metre; missing ones are zero.
     pub openings: &'a [f64],
     /// The residual that the laws were solved to.
@@ -201,9 +203,13 @@ impl SceneGeometry {
         let side = usize::from(state.surface.nodes[first.contact].second);
         let distances = Distances::new(meeting, side, &displacements, moved, opening);
         let pressed = pressed(state, seats);
+        let layers = state.problem.layers();
         let mut fit = PairFit::default();
         for (seat, &pressed) in seats.iter().zip(&pressed) {
-            let around = distances.around(&seat.faces);
+            // What a layer of the surfaces gives is no overlap.
+            let normal = state.problem.normals()[seat.contact];
+            let given = layers[normal] * state.reaction[normal];
+            let around = distances.around(&seat.faces).apart(given);
             fit.misplacement.take(seat.unshared);
             fit.overlap.take(around.overlap(rounded, seat.contact));
             if pressed {
@@ -231,7 +237,10 @@ impl SceneGeometry {
                 faces: faces.flat_map(|(seat, _)| &seat.faces).copied().collect(),
                 friction: friction.fold(0.0, f64::max),
             };
-            if state.body.model != crate::body::Model::Axisymmetric {
+            let laws = state.problem.laws().unwrap_or_default();
+            let mut laws = seats.iter().filter_map(|seat| laws.get(seat.contact));
+            let within = laws.all(Law::is_within_coulomb);
+            if within && state.body.model != crate::body::Model::Axisymmetric {
                 fit.reach = touching.reach(&forces, part, at);
             }
         }
@@ -241,7 +250,15 @@ impl SceneGeometry {
 
 /// Which contacts press.
 fn pressed(state: &BodyState<'_>, seats: &[Seat]) -> Vec<bool> {
-    let normal = |seat: &Seat| block(state.problem, seat.contact, state.reaction)[0];
+    let laws = state.problem.laws();
+    let normal = |seat: &Seat| {
+        let reaction = block(state.problem, seat.contact, state.reaction)[0];
+        match laws.map(|laws| laws[seat.contact]) {
+            // What glue bears of itself tells nothing of where the sides are.
+            Some(law) if law.tension > 0.0 => reaction - law.tension,
+            _ => reaction,
+        }
+    };
     let most = seats
         .iter()
         .map(|seat| normal(seat).abs())

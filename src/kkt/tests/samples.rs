@@ -49,8 +49,10 @@ pub(crate) fn pairs() -> Vec<ContactPair> {
         facets: Vec::new(),
         opposite,
         friction: 0.5,
+        law: crate::contact::PairLaw::default(),
         rounded: true,
         gap: 0.0,
+        dragged: false,
     };
     let plane = Obstacle::Plane {
         point: [0.0; 3],
@@ -75,5 +77,7 @@ fn body(name: &str, nodes: Vec<[f64; 3]>) -> Body {
         supports: Vec::new(),
         loads: Vec::new(),
         foundation: vec![],
+        formulation: crate::body::Formulation::Standard,
+        ties: Vec::new(),
     }
 }

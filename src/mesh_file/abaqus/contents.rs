@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use super::card::{Card, Row, bare, quote};
 use super::directory::Directory;
-use super::element::ElementKind;
+use super::element::{ElementKind, Space};
 use super::instance::Flat;
 use crate::error::Error;
 
@@ -38,12 +38,15 @@ pub(crate) struct Contents {
     pub(crate) surfaces: BTreeMap<String, BTreeSet<Side>>,
 }
 
+/// What knows the kind of an element by the name of its type.
+pub(crate) type Kinds = fn(&str) -> Result<ElementKind, String>;
+
 /// Keywords that are read here.
 pub(crate) const KEYWORDS: [&str; 5] = ["NODE", "ELEMENT", "NSET", "ELSET", "SURFACE"];
 
 impl Contents {
-    /// Reads the cards of meshes, wherever they stand among the others.
-    pub(crate) fn new(flat: &Flat<'_, '_>) -> Result<Self, Error> {
+    /// Reads the cards of meshes, wherever they stand among the others; `kind` knows the elements.
+    pub(crate) fn new(flat: &Flat<'_, '_>, kind: Kinds) -> Result<Self, Error> {
         let mut contents = Self {
             positions: Vec::new(),
             nodes: Directory::new("node", &flat.scopes),
@@ -60,7 +63,7 @@ impl Contents {
         }
         let mut added = HashMap::new();
         for (at, &(scope, card)) in of("ELEMENT") {
-            added.insert(at, contents.read_elements(scope, card)?);
+            added.insert(at, contents.read_elements(scope, card, kind)?);
         }
         // Sets are made of sets before them.
         for (at, &(scope, card)) in flat.cards.iter().enumerate() {
@@ -103,10 +106,15 @@ impl Contents {
     }
 
     /// Reads elements, whose rows may go on over several lines; returns which they are.
-    fn read_elements(&mut self, scope: usize, card: &Card<'_>) -> Result<Range<usize>, Error> {
+    fn read_elements(
+        &mut self,
+        scope: usize,
+        card: &Card<'_>,
+        kind: Kinds,
+    ) -> Result<Range<usize>, Error> {
         card.only(&["TYPE", "ELSET"])?;
-        let kind = ElementKind::new(card.need("TYPE")?).map_err(|reason| card.error(reason))?;
-        let (start, count) = (self.elements.len(), 1 + kind.cell.node_count());
+        let kind = kind(card.need("TYPE")?).map_err(|reason| card.error(reason))?;
+        let (start, count) = (self.elements.len(), 1 + kind.nodes);
         let mut numbers: Vec<u64> = Vec::with_capacity(count);
         let mut rows = card.rows(scope).peekable();
         while let Some(row) = rows.next() {
@@ -149,7 +157,11 @@ impl Contents {
             .map(node)
             .collect::<Result<Vec<_>, _>>()?;
         let raised = |node: &&usize| self.positions[**node][2] != 0.0;
-        if let (2, Some(&node)) = (kind.cell.dimension(), nodes.iter().find(raised)) {
+        if let Some(&node) = nodes
+            .iter()
+            .find(raised)
+            .filter(|_| kind.space != Space::Solid)
+        {
             let z = self.positions[node][2];
             return Err(format!(
                 "plane element {label} has a node at z = {z}; expected 0"

@@ -5,7 +5,7 @@
 //! NAME          set, there or of the model           Part-1.NAME   in an instance
 //! ```
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::card::{Card, Row, bare, quote};
 use super::instance::Scope;
@@ -63,6 +63,11 @@ impl Directory {
     ) {
         let name = self.scopes[scope].full(name);
         self.sets.entry(name).or_default().extend(indices);
+    }
+
+    /// The full names of all sets, and what is in them.
+    pub(super) fn sets(&self) -> BTreeMap<&String, &BTreeSet<usize>> {
+        self.sets.iter().collect()
     }
 
     /// What a word of a data line refers to, in rising order.

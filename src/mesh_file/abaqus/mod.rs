@@ -1,4 +1,5 @@
-//! Reader of Abaqus and CalculiX decks, as far as they state meshes.
+//! Reader of Abaqus and CalculiX decks, as far as they state meshes: one mesh of the whole deck
+//! (`parse`), or what [`deck`](crate::deck) makes bodies of.
 //!
 //! ```text
 //! lines (includes in place) → cards → instances of parts written out → nodes, elements, sets, surfaces
@@ -13,9 +14,13 @@ mod directory;
 mod element;
 mod instance;
 mod lines;
+mod mesh;
 
 pub(crate) use card::{Card, Row, bare, cards};
 pub(crate) use contents::{Contents, KEYWORDS, Side};
-pub(crate) use element::Space;
+pub(crate) use element::{ElementKind, Space};
 pub(crate) use instance::{Flat, flatten};
 pub(crate) use lines::Source;
+pub(crate) use mesh::parse;
+
+pub(crate) use super::elements::Shape;

@@ -5,6 +5,7 @@
 
 use std::fmt::Display;
 
+use super::super::elements::Places;
 use super::fields::{Fields, Order, Source, error_at_byte, quote};
 use crate::error::Error;
 
@@ -20,6 +21,17 @@ pub(super) struct Lines<'a> {
     /// Byte order of a binary file, none in an ASCII one.
     order: Option<Order>,
     file: &'a str,
+}
+
+impl Places for Lines<'_> {
+    fn fault(&self, place: Option<usize>, reason: String) -> Error {
+        self.error_at(place.unwrap_or_else(|| self.place()), reason)
+    }
+
+    fn name_of(&self, place: usize) -> String {
+        let unit = if self.binary() { "byte" } else { "line" };
+        format!("{unit} {place}")
+    }
 }
 
 impl<'a> Lines<'a> {
@@ -47,12 +59,6 @@ impl<'a> Lines<'a> {
         } else {
             self.number
         }
-    }
-
-    /// A place as words in a sentence.
-    pub(super) fn name_of(&self, place: usize) -> String {
-        let unit = if self.binary() { "byte" } else { "line" };
-        format!("{unit} {place}")
     }
 
     /// An error at what was read last.

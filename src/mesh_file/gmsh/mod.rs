@@ -11,17 +11,17 @@
 //! in the file. A binary file may have either byte order, which it states itself; messages on it
 //! name the byte, counted from 0. Format: Gmsh reference manual, "MSH file format".
 
-mod assemble;
-mod contents;
 mod fields;
 mod lines;
+mod names;
 mod version2;
 mod version4;
 mod write;
 
+use super::assemble;
+use super::elements::Contents;
 use crate::body::Mesh;
 use crate::error::Error;
-use contents::Contents;
 use lines::Lines;
 pub use write::to_text;
 
@@ -52,7 +52,7 @@ pub fn parse(content: impl AsRef<[u8]>, name: &str) -> Result<Mesh, Error> {
     let mut contents = Contents::default();
     while let Some(section) = lines.section()? {
         match (section, version) {
-            ("PhysicalNames", _) => contents.read_names(&mut lines)?,
+            ("PhysicalNames", _) => names::read(&mut lines, &mut contents.names)?,
             ("Entities", Version::Four) => version4::entities(&mut lines, &mut contents)?,
             ("Nodes", Version::Two) => version2::nodes(&mut lines, &mut contents)?,
             ("Nodes", Version::Four) => version4::nodes(&mut lines, &mut contents)?,
@@ -65,7 +65,7 @@ pub fn parse(content: impl AsRef<[u8]>, name: &str) -> Result<Mesh, Error> {
         }
         lines.end(section)?;
     }
-    assemble::mesh(&contents, version, &lines)
+    assemble::mesh(&contents, version == Version::Two, &lines)
 }
 
 /// Refuses an ASCII file with bytes that are not text, even where its lines are passed over.
@@ -200,7 +200,7 @@ mod tests {
             (16, "Quad8"),
             (17, "Hex20"),
         ] {
-            let (shape, nodes) = contents::Shape::from_type(number).unwrap();
+            let (shape, nodes) = crate::mesh_file::elements::Shape::from_type(number).unwrap();
             let said = format!("{shape:?}");
             assert!(
                 said.contains(kind) && kind.ends_with(&nodes.to_string()),
@@ -310,7 +310,7 @@ mod tests {
                 "node 30 of a plane mesh lies at z = 4",
             ),
             ("3 2 2 7 1 10", "3 2 2 7 1 11", 20, "node 11 is not listed"),
-            ("3 2 2 7 1 10", "3 6 2 7 1 10", 20, "6 (prism)"),
+            ("3 2 2 7 1 10", "3 13 2 7 1 10", 20, "13 (prism of 18"),
             ("1 10 20 30\n", "1 10 20\n", 20, "the line ends"),
             ("1 10 20 30\n", "1 10 20 30 10\n", 20, "one word too many"),
         ] {

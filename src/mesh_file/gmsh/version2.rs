@@ -1,6 +1,6 @@
 //! Sections of MSH 2.2: an element carries its physical group.
 
-use super::contents::{Contents, Element, MOST_NODES, Shape};
+use super::super::elements::{Contents, Element, MOST_NODES, Shape};
 use super::fields::Fields;
 use super::lines::Lines;
 use crate::error::Error;

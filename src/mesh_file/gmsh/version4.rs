@@ -1,6 +1,6 @@
 //! Sections of MSH 4.1: blocks of nodes and elements per geometric entity.
 
-use super::contents::{Contents, Element, MOST_NODES, Shape};
+use super::super::elements::{Contents, Element, MOST_NODES, Shape};
 use super::fields::Fields;
 use super::lines::Lines;
 use crate::error::Error;

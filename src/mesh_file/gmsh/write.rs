@@ -5,11 +5,11 @@
 
 use std::fmt::Write;
 
-use super::contents::Shape;
+use super::super::elements::Shape;
 use crate::body::{CellKind, Group, Mesh};
 
 /// Gmsh's numbers of cells and facets.
-const NUMBERS: [u32; 10] = [2, 3, 4, 5, 9, 10, 11, 12, 16, 17];
+const NUMBERS: [u32; 14] = [2, 3, 4, 5, 6, 7, 9, 10, 11, 12, 16, 17, 18, 19];
 
 /// The mesh as text; groups keep their names, a quotation mark in one becomes an apostrophe.
 #[must_use]

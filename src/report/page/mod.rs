@@ -224,7 +224,7 @@ impl<'a> DrawnScene<'a> {
         let pairs = parts.pairs.iter().map(|pair| DrawnPair {
             place: &pair.place,
             obstacle: match &pair.opposite {
-                Opposite::Obstacle(obstacle) => Some(DrawnObstacle::new(obstacle, origin)),
+                Opposite::Obstacle(obstacle) => DrawnObstacle::new(obstacle, origin),
                 Opposite::Surface { .. } => None,
             },
         });
@@ -250,9 +250,10 @@ impl<'a> DrawnScene<'a> {
 }
 
 impl DrawnObstacle {
-    fn new(obstacle: &Obstacle, origin: [f64; 3]) -> Self {
+    /// None of shapes that the page does not draw.
+    fn new(obstacle: &Obstacle, origin: [f64; 3]) -> Option<Self> {
         let relative = |point: &[f64; 3]| [0, 1, 2].map(|axis| point[axis] - origin[axis]);
-        match obstacle {
+        Some(match obstacle {
             Obstacle::Plane { point, normal } => Self {
                 point: relative(point),
                 direction: Some(*normal),
@@ -272,7 +273,8 @@ impl DrawnObstacle {
                 direction: None,
                 radius: Some(*radius),
             },
-        }
+            _ => return None,
+        })
     }
 }
 

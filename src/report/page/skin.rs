@@ -180,6 +180,8 @@ mod tests {
             supports: Vec::new(),
             loads: Vec::new(),
             foundation: Vec::new(),
+            formulation: crate::body::Formulation::Standard,
+            ties: Vec::new(),
         })
     }
 

@@ -82,6 +82,16 @@ pub(super) fn totals(report: &Report) -> Vec<Row> {
             vector(&support.force),
         );
     }
+    for group in &report.rigid_groups {
+        let place = &group.place;
+        add(
+            &format!("{place}: displacement"),
+            vector(&group.displacement),
+        );
+        add(&format!("{place}: rotation"), vector(&group.rotation));
+        add(&format!("{place}: force"), vector(&group.force));
+        add(&format!("{place}: moment"), vector(&group.moment));
+    }
     if totals.pairs.len() > 1 {
         for pair in &totals.pairs {
             let (place, totals) = (&pair.place, &pair.totals);

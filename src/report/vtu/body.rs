@@ -1,12 +1,13 @@
 //! The bodies: displacement and stress.
 
 use super::document::{Cells, Document, Section};
-use crate::body::{CellKind, Mesh, principal, von_mises};
+use crate::body::{Mesh, principal, von_mises};
 use crate::error::{Error, check_length};
+use crate::mesh_file::vtu::vtk_kind;
 
 /// Fields of a body; a field that is empty in all bodies is left out of the file.
 ///
-/// Stresses are `[xx, yy, zz, yz, xz, xy]`, in pascal.
+/// Stresses are `[xx, yy, zz, yz, xz, xy]`, in pascal, strains likewise.
 #[derive(Clone, Copy, Debug)]
 pub struct BodyFields<'a> {
     /// Nodes and cells.
@@ -17,21 +18,39 @@ pub struct BodyFields<'a> {
     pub nodal_stress: &'a [[f64; 6]],
     /// Stress per cell.
     pub cell_stress: &'a [[f64; 6]],
+    /// Strain per cell.
+    pub cell_strain: &'a [[f64; 6]],
+    /// Force of the contacts on the body per unknown, in newton.
+    pub contact_force: &'a [f64],
+    /// Force of the supports on the body per unknown, in newton.
+    pub support_force: &'a [f64],
 }
 
-/// All bodies as one VTU document, one after the other: `displacement`, `stress`, `von_mises`,
-/// `principal_stress` (largest first) at points, the latter three also at cells, and at both `body`,
-/// which body it is, from 0.
+/// A field per unknown of a body.
+type OfUnknowns = for<'a> fn(&BodyFields<'a>) -> &'a [f64];
+
+/// Vectors at points.
+const VECTORS: [(&str, OfUnknowns); 3] = [
+    ("displacement", |body| body.displacement),
+    ("contact_force", |body| body.contact_force),
+    ("support_force", |body| body.support_force),
+];
+
+/// All bodies as one VTU document, one after the other, with the arrays of the table in [`vtu`](super).
 ///
 /// # Errors
 ///
 /// [`Error::Length`] for a field that is not of the mesh's length, unless it is empty in
 /// all bodies.
 pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
-    let moved = has_field(bodies, "displacement", |body| {
-        let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
-        (unknowns, body.displacement.len())
-    })?;
+    let mut vectors = Vec::new();
+    for (name, values) in VECTORS {
+        let found = has_field(bodies, name, |body| {
+            let unknowns = body.mesh.nodes.len() * body.mesh.dimension;
+            (unknowns, values(body).len())
+        })?;
+        vectors.extend(found.then_some((name, values)));
+    }
     let stressed_nodes = has_field(bodies, "nodal_stress", |body| {
         (body.mesh.nodes.len(), body.nodal_stress.len())
     })?;
@@ -39,15 +58,19 @@ pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
         (body.mesh.cell_count(), body.cell_stress.len())
     })?;
 
+    let strained = has_field(bodies, "cell_strain", |body| {
+        (body.mesh.cell_count(), body.cell_strain.len())
+    })?;
+
     let (nodes, cells) = joined(bodies);
     let mut document = Document::new(nodes, &cells);
     document.section(Section::Points, |document| {
-        if moved {
+        for (name, values) in vectors {
             let vectors = bodies.iter().flat_map(|body| {
-                let of_nodes = body.displacement.chunks(body.mesh.dimension);
+                let of_nodes = values(body).chunks(body.mesh.dimension);
                 of_nodes.flat_map(padded)
             });
-            document.reals("displacement", 3, vectors);
+            document.reals(name, 3, vectors);
         }
         if stressed_nodes {
             stress(document, bodies, |body| body.nodal_stress);
@@ -57,6 +80,10 @@ pub fn body_vtu(bodies: &[BodyFields<'_>]) -> Result<String, Error> {
     document.section(Section::Cells, |document| {
         if stressed_cells {
             stress(document, bodies, |body| body.cell_stress);
+        }
+        if strained {
+            let all = bodies.iter().flat_map(|body| body.cell_strain);
+            document.reals("strain", 6, all.flat_map(reordered));
         }
         document.integers("body", indices(bodies, Mesh::cell_count));
     });
@@ -84,14 +111,18 @@ fn joined(bodies: &[BodyFields<'_>]) -> (usize, Cells) {
     (first, cells)
 }
 
+/// VTK's order of a tensor.
+fn reordered(&[xx, yy, zz, yz, xz, xy]: &[f64; 6]) -> [f64; 6] {
+    [xx, yy, zz, xy, yz, xz]
+}
+
 fn stress<'a>(
     document: &mut Document,
     bodies: &[BodyFields<'a>],
     tensors: fn(&BodyFields<'a>) -> &'a [[f64; 6]],
 ) {
     let all = || bodies.iter().flat_map(tensors).copied();
-    let reordered = all().flat_map(|[xx, yy, zz, yz, xz, xy]| [xx, yy, zz, xy, yz, xz]);
-    document.reals("stress", 6, reordered);
+    document.reals("stress", 6, all().flat_map(|tensor| reordered(&tensor)));
     document.reals("von_mises", 1, all().map(von_mises));
     document.reals("principal_stress", 3, all().flat_map(principal));
 }
@@ -106,7 +137,7 @@ fn indices(bodies: &[BodyFields<'_>], entries: fn(&Mesh) -> usize) -> impl Itera
 fn has_field<'a>(
     bodies: &[BodyFields<'a>],
     field: &str,
-    lengths: fn(&BodyFields<'a>) -> (usize, usize),
+    lengths: impl Fn(&BodyFields<'a>) -> (usize, usize),
 ) -> Result<bool, Error> {
     let present = bodies.iter().any(|body| lengths(body).1 > 0);
     for (index, body) in bodies.iter().enumerate().filter(|_| present) {
@@ -116,32 +147,35 @@ fn has_field<'a>(
     Ok(present)
 }
 
-/// VTK's number of a cell, and the mesh's local nodes at the end of VTK's order where it is another.
-fn vtk_kind(kind: CellKind) -> (u8, &'static [usize]) {
-    const EDGES_THEN_FACES: [usize; 19] = [
-        8, 11, 13, 9, 16, 18, 19, 17, 10, 12, 14, 15, 22, 23, 21, 24, 20, 25, 26,
-    ];
-    match kind {
-        CellKind::Tri3 => (5, &[]),
-        CellKind::Quad4 => (9, &[]),
-        CellKind::Tet4 => (10, &[]),
-        CellKind::Hex8 => (12, &[]),
-        CellKind::Tri6 => (22, &[]),
-        CellKind::Quad8 => (23, &[]),
-        CellKind::Quad9 => (28, &[]),
-        CellKind::Tet10 => (24, &[9, 8]),
-        CellKind::Hex20 => (25, EDGES_THEN_FACES.split_at(12).0),
-        CellKind::Hex27 => (29, &EDGES_THEN_FACES),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::CellKind;
 
     /// Nodes between which those of a quadratic cell stand, in VTK's order after the corners: the
     /// edges, then the corners of faces (VTK, vtkCellType and its cells' documentation).
     const TETRAHEDRON: [&[usize]; 6] = [&[0, 1], &[1, 2], &[2, 0], &[0, 3], &[1, 3], &[2, 3]];
+    const PRISM: [&[usize]; 9] = [
+        &[0, 1],
+        &[1, 2],
+        &[2, 0],
+        &[3, 4],
+        &[4, 5],
+        &[5, 3],
+        &[0, 3],
+        &[1, 4],
+        &[2, 5],
+    ];
+    const PYRAMID: [&[usize]; 8] = [
+        &[0, 1],
+        &[1, 2],
+        &[2, 3],
+        &[3, 0],
+        &[0, 4],
+        &[1, 4],
+        &[2, 4],
+        &[3, 4],
+    ];
     const HEXAHEDRON: [&[usize]; 18] = [
         &[0, 1],
         &[1, 2],
@@ -169,6 +203,8 @@ mod tests {
             (CellKind::Tet10, &TETRAHEDRON[..]),
             (CellKind::Hex20, &HEXAHEDRON[..12]),
             (CellKind::Hex27, &HEXAHEDRON[..]),
+            (CellKind::Prism15, &PRISM[..]),
+            (CellKind::Pyramid13, &PYRAMID[..]),
         ] {
             let (_, moved) = vtk_kind(kind);
             let order: Vec<usize> = (0..kind.node_count() - moved.len())
@@ -177,7 +213,7 @@ mod tests {
             for (place, corners) in (kind.corner_count()..).zip(between) {
                 let found = kind.position(order[place]);
                 for (axis, found) in found.into_iter().enumerate() {
-                    let sum: f64 = corners.iter().map(|c| kind.position(*c)[axis]).sum();
+                    let sum: f64 = corners.iter().map(|c| kind.position(order[*c])[axis]).sum();
                     assert_eq!(found, sum / corners.len() as f64, "{kind:?} {place}");
                 }
             }

@@ -13,7 +13,7 @@ use crate::report::{Contact, Report, ReportedContactState};
 ///
 /// `facets` come with the index of their body, `displacements` are per body and unknown.
 /// Point arrays: `displacement`, `pressure`, `friction_traction`, `gap`, `slip`, `state`
-/// (0 open, 1 slip, 2 stick, −1 no contact), `body`, `node` (of its mesh). Cells have `body` and
+/// (0 open, 1 slip, 2 stick, −1 no contact), `body`, `node` (of its mesh), under laws beyond Coulomb's `shear_bound`. Cells have `body` and
 /// `state`: that of most of their contacts, of two alike the one that holds more. The file says
 /// these numbers in a comment. A value that does not exist (pressure without area, gap of what is
 /// no contact) is NaN, which plots leave blank.
@@ -65,6 +65,9 @@ pub fn contact_vtu(
             3,
             vector(|contact| contact.friction_traction.as_deref()),
         );
+        if contacts.iter().any(|contact| contact.shear_bound.is_some()) {
+            document.reals("shear_bound", 1, scalar(|contact| contact.shear_bound));
+        }
         document.reals("gap", 1, scalar(|contact| Some(contact.gap)));
         document.reals("slip", 3, vector(|contact| Some(&contact.slip)));
         document.comment(STATES);

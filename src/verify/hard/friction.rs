@@ -21,8 +21,8 @@ pub(super) fn dragged(cells: usize, poisson: f64, friction: f64) -> Result<Scene
     let mut scene = scene(square(cells, [1.0; 2], CellKind::Quad4)?, friction);
     for body in &mut scene.bodies {
         for material in &mut body.materials {
-            material.young = MATERIAL.young;
-            material.poisson = poisson;
+            material.young = Some(MATERIAL.young);
+            material.poisson = Some(poisson);
         }
     }
     Ok(scene)

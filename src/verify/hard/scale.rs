@@ -18,7 +18,7 @@ fn scaled(mut scene: Scene, length: f64, stress: f64, load: f64) -> Result<Scene
     for body in &mut scene.bodies {
         body.mesh = crate::scene::MeshSource::Given(mesh.clone());
         for material in &mut body.materials {
-            material.young *= stress;
+            material.young = material.young.map(|young| young * stress);
         }
         for applied in &mut body.loads {
             if let SceneLoad::Pressure { pressure, .. } = applied {

@@ -61,7 +61,7 @@ pub fn attempt(mut scene: Scene) -> Result<(), Error> {
     if let Some(sweeps) = &mut scene.settings.max_sweeps {
         *sweeps = (*sweeps).min(SWEEPS);
     }
-    if let Ok(limits) = dpana::limit(&scene) {
+    if let Ok(limits) = dpana::rigid_limit(&scene) {
         let _ = (limits.to_json(), limits.summary());
     }
     let tolerance = mechanics.settings.tolerance;

@@ -1,8 +1,8 @@
-//! Bytes to the reader of Gmsh files, and a scene around every mesh that it accepts.
+//! Bytes to the readers of mesh files (Gmsh, VTU, Abaqus), and a scene around every mesh that they accept.
 #![no_main]
 
 use dpana::body::{Group, Mesh};
-use dpana::mesh_file::gmsh;
+use dpana::mesh_file;
 use dpana::scene::{
     MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
     SceneObstacle, SceneSupport, SceneSurface,
@@ -14,7 +14,13 @@ use libfuzzer_sys::fuzz_target;
 const NODES: usize = 400;
 
 fuzz_target!(|bytes: &[u8]| {
-    if let Ok(mesh) = gmsh::parse(bytes, "part.msh") {
+    let name = match bytes {
+        [b'<', ..] => "part.vtu",
+        [b'*', ..] => "part.inp",
+        _ => "part.msh",
+    };
+    let include = |file: &str| Err(dpana::Error::Empty { place: file.to_owned() });
+    if let Ok(mesh) = mesh_file::parse(bytes, name, &include) {
         if mesh.nodes.len() <= NODES {
             let _ = attempt(scene(mesh, bytes.len()));
         }
@@ -56,6 +62,8 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
             loads: vec![load],
             mesh: MeshSource::Given(mesh),
  foundation: Vec::new(),
+formulation: dpana::scene::SceneFormulation::default(),
+groups: std::collections::BTreeMap::new(),
         }],
         contacts: vec![SceneContact {
             group: any(facets.first()),
@@ -65,9 +73,8 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
                 body: None,
                 group: any(facets.get(1)),
             }),
-            friction: 0.3,
-            rounded: None,
-            gap: 0.0,
+            friction: Some(0.3),
+            ..SceneContact::default()
         }],
         ..Scene::default()
     }

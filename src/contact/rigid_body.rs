@@ -1,0 +1,108 @@
+//! A rigid body that carries obstacles, and how each component of its motion is given.
+//!
+//! ```text
+//! d(x) = a + ω × (x − c)        c: reference point, a: its displacement, ω: small rotation
+//! ```
+
+/// A small motion of a rigid body.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RigidMotion {
+    /// Displacement of the reference point, in metre.
+    pub translation: [f64; 3],
+    /// Rotation about the axes, in radian.
+    pub rotation: [f64; 3],
+    /// The reference point, in metre.
+    pub about: [f64; 3],
+}
+
+/// How a component of the motion of a rigid body is given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Component {
+    /// Displacement in metre, or rotation in radian.
+    Given(f64),
+    /// Free under a force in newton, or a moment in newton metre.
+    Free(f64),
+}
+
+/// A body without compliance, which moves as a whole.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RigidBody {
+    /// Where the scene says so, for messages, such as `rigid_bodies[0]`.
+    pub place: String,
+    /// Name for messages and reports.
+    pub name: String,
+    /// Point that displacements, forces and moments are stated of, in metre.
+    pub reference: [f64; 3],
+    /// Translations along x, y, z, then rotations about them.
+    pub components: [Component; 6],
+    /// Contact pairs whose obstacles it carries.
+    pub pairs: Vec<usize>,
+}
+
+impl RigidMotion {
+    /// Displacement at a position, in metre.
+    #[must_use]
+    pub fn at(&self, position: [f64; 3]) -> [f64; 3] {
+        let [x, y, z] = [0, 1, 2].map(|axis| position[axis] - self.about[axis]);
+        let ([a, b, c], [u, v, w]) = (self.rotation, self.translation);
+        [u + b * z - c * y, v + c * x - a * z, w + a * y - b * x]
+    }
+}
+
+impl RigidBody {
+    /// The motion of this value per component.
+    #[must_use]
+    pub fn motion(&self, [u, v, w, a, b, c]: [f64; 6]) -> RigidMotion {
+        RigidMotion {
+            translation: [u, v, w],
+            rotation: [a, b, c],
+            about: self.reference,
+        }
+    }
+
+    /// Where a scene in 2D or 3D states a component, such as `rigid_bodies[0].force[1]`.
+    #[must_use]
+    pub fn component_place(&self, component: usize, dimension: usize) -> String {
+        let key = match (self.components[component], component < 3) {
+            (Component::Given(_), true) => "displacement",
+            (Component::Free(_), true) => "force",
+            (Component::Given(_), false) => "rotation",
+            (Component::Free(_), false) => "moment",
+        };
+        let entry = match (component, dimension) {
+            (0..3, _) => component,
+            (_, 2) => 0,
+            _ => component - 3,
+        };
+        format!("{}.{key}[{entry}]", self.place)
+    }
+
+    /// Numbers of the components that are free.
+    pub fn free(&self) -> impl Iterator<Item = usize> + '_ {
+        let free = |k: &usize| matches!(self.components[*k], Component::Free(_));
+        (0..6).filter(free)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turned_body_moves_across_the_arm() {
+        // A quarter of a radian about z through (1, 0, 0): (1, 2, 0) goes by −0.5 along x.
+        let motion = RigidMotion {
+            translation: [0.0, 3.0, 0.0],
+            rotation: [0.0, 0.0, 0.25],
+            about: [1.0, 0.0, 0.0],
+        };
+        assert_eq!(motion.at([1.0, 2.0, 0.0]), [-0.5, 3.0, 0.0]);
+        // About x through the same point: (1, 2, 0) rises along z.
+        let motion = RigidMotion {
+            rotation: [0.25, 0.0, 0.0],
+            translation: [0.0; 3],
+            ..motion
+        };
+        assert_eq!(motion.at([1.0, 2.0, 0.0]), [0.0, 0.0, 0.5]);
+    }
+}

@@ -1,0 +1,184 @@
+//! Faces of bodies that repeat: Westergaard's wave, and a ring by its sector.
+//! (Johnson, Contact Mechanics, § 13.2; Timoshenko & Goodier, Theory of Elasticity, § 28.)
+
+use std::f64::consts::PI;
+
+use dpana::body::{CellKind, graded, rectangle};
+use dpana::report::Report;
+use dpana::scene::{
+    SceneAxis, SceneContact, SceneLoad, SceneObstacle, ScenePeriodic, SceneSupport,
+};
+use dpana::{Variation, cases, solve};
+
+use crate::local_supports::{sector, shipped};
+use crate::stacks::{body, certified, scene};
+
+/// Amplitude of the wave, whose length is 1 m.
+const AMPLITUDE: f64 = 1e-4;
+
+#[test]
+fn a_wave_that_repeats_is_pressed_flat_as_westergaard_says() {
+    // p* = π E* Δ/λ flattens it; below, the largest pressure is 2 √(p̄ p*). The crest is within, or on the seam.
+    let full = PI * 1000.0 / (1.0 - 0.09) * AMPLITUDE;
+    let factors = [0.1, 0.3, 0.6, 0.9];
+    for crest in [0.5, 0.0] {
+        let (xs, ys) = (graded(0.0, 1.0, 64, 1.0), graded(0.0, 1.5, 32, 12.0));
+        let mut mesh = rectangle(&xs.unwrap(), &ys.unwrap(), CellKind::Quad4).unwrap();
+        for x in &mut mesh.nodes {
+            let wave = AMPLITUDE * (1.0 - (2.0 * PI * (x[0] - crest)).cos());
+            x[1] += wave * (1.0 - x[1] / 1.5);
+        }
+        let strip = body("strip", mesh, 1000.0, 0.3)
+            .with_periodic(ScenePeriodic::translated("left", "right", &[1.0, 0.0]))
+            .with_support(SceneSupport::At {
+                at: vec![0.5, 1.5],
+                displacement: vec![Some(0.0), None],
+            })
+            .with_load(SceneLoad::pressure("top", full));
+        let floor = SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0]);
+        let contact = SceneContact::on(floor, "bottom", 0.0);
+        let scene = scene(vec![strip], vec![contact]);
+        assert_eq!(scene.mechanics().unwrap().bodies[0].free_motions(), Ok(1));
+        let load = Variation {
+            name: "bodies[0].loads[0]".to_owned(),
+            values: factors.to_vec(),
+        };
+        let table = cases(&scene, &[load]).unwrap();
+        let peaks = table.column("peak_pressure").unwrap();
+        for (factor, peak) in factors.iter().zip(peaks) {
+            let expected = 2.0 * full * f64::sqrt(*factor);
+            assert!(
+                (peak / expected - 1.0).abs() < 0.01,
+                "{crest} {factor} {}",
+                peak / expected
+            );
+        }
+    }
+}
+
+/// A ring or its sector, shrunk onto a rigid mandrel.
+fn shrunk(sectors: usize, whole: bool) -> Report {
+    let angle = 2.0 * PI / sectors as f64;
+    let axis = || SceneAxis {
+        point: vec![0.0, 0.0],
+        direction: None,
+    };
+    let of = match whole {
+        false => {
+            let mesh = sector(CellKind::Quad4, [4, 6], [0.3, 0.3 + angle]);
+            let turned = ScenePeriodic::turned("bottom", "top", axis(), angle);
+            body("ring", mesh, 1000.0, 0.3).with_periodic(turned)
+        }
+        true => {
+            let around = 6 * sectors;
+            let mut mesh = sector(CellKind::Quad4, [4, around], [0.3, 0.3 + 2.0 * PI]);
+            // The last row of nodes is the first.
+            let last = mesh.nodes.len() - 5;
+            let cells: Vec<Vec<usize>> = mesh
+                .cells()
+                .map(|cell| {
+                    cell.nodes
+                        .iter()
+                        .map(|n| if *n >= last { n - last } else { *n })
+                        .collect()
+                })
+                .collect();
+            let mut closed = dpana::body::Mesh::new(2, mesh.nodes.drain(..last).collect());
+            cells
+                .iter()
+                .for_each(|nodes| closed.push_cell(CellKind::Quad4, nodes));
+            let closed = closed
+                .with_surface("left", |[x, y, _]| x.hypot(y) < 1.0 + 1e-9)
+                .and_then(|mesh| mesh.with_surface("right", |[x, y, _]| x.hypot(y) > 2.0 - 1e-9));
+            body("ring", closed.unwrap(), 1000.0, 0.3)
+        }
+    };
+    let mandrel = SceneObstacle::Circle {
+        center: vec![0.0, 0.0],
+        radius: 0.999,
+    };
+    let mut contact = SceneContact::on(mandrel, "left", 0.2);
+    contact.gap = -0.003;
+    // It turns nowhere.
+    let of = of.with_support(SceneSupport::around("right", axis(), &[None, Some(0.0)]));
+    certified(&scene(vec![of], vec![contact])).1
+}
+
+#[test]
+fn a_sector_that_repeats_around_its_axis_is_the_whole_ring() {
+    let (part, whole) = (shrunk(8, false), shrunk(8, true));
+    let pressures = |report: &Report| -> Vec<f64> {
+        report
+            .contacts
+            .iter()
+            .filter_map(|contact| contact.pressure)
+            .collect()
+    };
+    let mean = whole.totals.normal / whole.totals.contact_area;
+    for pressure in pressures(&part).iter().chain(&pressures(&whole)) {
+        assert!((pressure / mean - 1.0).abs() < 1e-8, "{pressure} {mean}");
+    }
+    // What the bore is widened by, facets and all, by Lamé: 0.002 m, and the sagitta.
+    let expected = 0.002 * 1000.0 * 3.0 / (1.3 * 4.4);
+    assert!((mean / expected - 1.0).abs() < 0.02, "{mean} {expected}");
+}
+
+#[test]
+fn faces_that_do_not_match_are_refused_with_the_node() {
+    let mesh = |bent: f64| {
+        let (xs, ys) = (graded(0.0, 1.0, 2, 1.0), graded(0.0, 1.0, 2, 1.0));
+        let mut mesh = rectangle(&xs.unwrap(), &ys.unwrap(), CellKind::Quad4).unwrap();
+        let middle = mesh.nodes.iter_mut().find(|x| **x == [1.0, 0.5, 0.0]);
+        middle.unwrap()[1] += bent;
+        mesh
+    };
+    let floor = || SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0]);
+    for (bent, periodic, says) in [
+        (
+            0.1,
+            ScenePeriodic::translated("left", "right", &[1.0, 0.0]),
+            "mapped to [1.0, 0.5, 0.0]",
+        ),
+        (
+            0.0,
+            ScenePeriodic::translated("left", "right", &[0.9, 0.0]),
+            "nodes that match",
+        ),
+        (
+            0.0,
+            ScenePeriodic::translated("left", "bottom", &[1.0, 0.0]),
+            "nodes that match",
+        ),
+        (
+            0.0,
+            ScenePeriodic {
+                translation: None,
+                ..ScenePeriodic::translated("left", "right", &[])
+            },
+            "`translation`, or `axis` with `angle`",
+        ),
+    ] {
+        let of = body("block", mesh(bent), 1000.0, 0.3).with_periodic(periodic);
+        let found = solve(&scene(
+            vec![of],
+            vec![SceneContact::on(floor(), "bottom", 0.0)],
+        ));
+        let words = found.unwrap_err().to_string();
+        assert!(
+            words.contains("bodies[0].periodic[0]") && words.contains(says),
+            "{words}"
+        );
+    }
+}
+
+#[test]
+fn a_row_of_rollers_carries_its_load_below_the_middle_of_each() {
+    // The roller is at x = 7, not in the middle of the piece that repeats: mirrored about it all the same.
+    let (_, report) = certified(&shipped("rollers"));
+    let [x, y] = [
+        report.totals.contact_force[0],
+        report.totals.contact_force[1],
+    ];
+    assert!((y / 1000.0 - 1.0).abs() < 1e-9 && x.abs() < 1e-6, "{x} {y}");
+    assert!((report.totals.moment[0] / 7000.0 - 1.0).abs() < 1e-6);
+}
