@@ -164,6 +164,14 @@ impl SceneContact {
                     .to_owned(),
             });
         }
+        if self.dragged && matches!(opposite, Opposite::Surface { .. }) {
+            return Err(Error::NotAccepted {
+                place: format!("{place}.dragged"),
+                found: "true beside `against`".to_owned(),
+                accepted: "a contact with `obstacle` or `rigid_body`, along which supports drag the surface"
+                    .to_owned(),
+            });
+        }
         let (friction, law) = self.law(place, body, &opposite, bodies)?;
         Ok(ContactPair {
             place: place.to_owned(),

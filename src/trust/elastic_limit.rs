@@ -60,7 +60,9 @@ pub struct LimitStart<'a> {
 /// Follows a load on bodies that only contact holds up to its limit (T3): `without` is their problem without the load,
 /// `stated` with it as it stands, at the factor one.
 ///
-/// Factors are known to a millionth, where the states between can be told apart.
+/// Factors are known to a millionth, where the states between can be told apart. Displacements are taken for small
+/// throughout: a body that turns within facets may jam on them after a turn that no such theory knows, and be found to
+/// hold beyond what its friction carries. Solve at the factor, and read the slip.
 ///
 /// # Errors
 ///

@@ -46,6 +46,17 @@ fn says(error: &Error, parts: &[&str]) {
 }
 
 #[test]
+fn a_surface_is_not_dragged_along_another_body() {
+    let mut faces = faces("bottom", "top");
+    faces[0].dragged = true;
+    let error = refused(blocks(CellKind::Quad4, 0.0, 0.0), faces);
+    says(
+        &error,
+        &["contacts[0].dragged", "true beside `against`", "`obstacle`"],
+    );
+}
+
+#[test]
 fn bodies_deep_in_each_other_are_refused_with_the_place_and_the_depth() {
     for kind in CellKind::LINEAR {
         // A twentieth of the diagonal of the smaller side: 0.05, and 0.0707 in 3D.
