@@ -20,7 +20,7 @@
 //! pressed, stuck, and a finish is tried before any sweep. A neighbouring case starts with a Newton
 //! step on what each contact does there.
 //!
-//! A solved state's derivatives come from the same Newton matrix (D15): [`Linearised`].
+//! A solved state's derivatives come from the same Newton matrix (D16): [`Linearised`].
 //!
 //! Bisegna, Lebon, Maceri, C. R. Acad. Sci. Paris I 333 (2001) 1053–1058; Adv. Eng.
 //! Software 35 (2004) 595–600.

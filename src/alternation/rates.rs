@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!        open     ṫ = 0
-//! (D15)  stick    u̇_N = ġ₀,  u̇_T = 0
+//! (D16)  stick    u̇_N = ġ₀,  u̇_T = 0
 //!        slip     u̇_N = ġ₀,  (1 − M) ṫ_T + μ d ṫ_N + ρ M u̇_T + μ̇ d t_N = 0       d, M of (D4)
 //!        u̇ = û̇ + (Gt)˙ + G ṫ + R α̇,      Rᵀ ṫ + ė = 0
 //! ```
@@ -93,7 +93,7 @@ impl<T> Sides<T> {
     }
 }
 
-/// The laws of a solved state, linear around it (D15).
+/// The laws of a solved state, linear around it (D16).
 pub struct Linearised<'a> {
     problem: &'a ContactProblem,
     finish: Finish<'a>,

@@ -52,16 +52,16 @@ impl Mesh {
                     .to_owned(),
             });
         }
-        let mut splitting = Splitting::new(self);
+        let mut refinement = Refinement::new(self);
         for cell in self.cells() {
-            for nodes in splitting.parts(cell.kind.reference(), cell.nodes) {
-                splitting.mesh.push_cell(cell.kind, &nodes);
+            for nodes in refinement.parts(cell.kind.reference(), cell.nodes) {
+                refinement.mesh.push_cell(cell.kind, &nodes);
             }
         }
         let groups = self.groups.iter();
-        let groups = groups.map(|(name, group)| (name.clone(), splitting.group(group)));
+        let groups = groups.map(|(name, group)| (name.clone(), refinement.group(group)));
         let groups = groups.collect();
-        let mut mesh = splitting.mesh;
+        let mut mesh = refinement.mesh;
         mesh.groups = groups;
         Ok(mesh)
     }
@@ -72,12 +72,12 @@ impl Mesh {
     }
 }
 
-struct Splitting {
+struct Refinement {
     mesh: Mesh,
     known: HashMap<Place, usize>,
 }
 
-impl Splitting {
+impl Refinement {
     /// No cells yet; the old nodes are known by where they are in their cells.
     fn new(mesh: &Mesh) -> Self {
         let mut known = HashMap::new();

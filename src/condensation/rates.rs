@@ -28,7 +28,6 @@ impl Condensed {
     ///
     /// A load or support that there is not.
     pub fn rate_of(&self, bodies: &[Body], driven: Driven) -> Result<BodyRate, Error> {
-        driven.check(bodies, 0)?;
         let Some(body) = driven.body() else {
             return Err(Error::NotAccepted {
                 place: "driven".to_owned(),
@@ -36,6 +35,7 @@ impl Condensed {
                 accepted: "a load or support of an elastic body".to_owned(),
             });
         };
+        driven.check(bodies, 0)?;
         let action = self.answer_of(body, &bodies[body], |acts| acts == driven);
         Ok(BodyRate { body, action })
     }

@@ -153,9 +153,7 @@ impl View<'_> {
             rim: false,
         }))
     }
-}
 
-impl View<'_> {
     /// Keeps of the supported directions of a contact with friction those along which nothing moves it: along
     /// the others it slips, if that is meant.
     fn slip_by_supports(

@@ -103,7 +103,7 @@ pub fn solve_within(
         }
         scene = match request.meshes.get(levels.len()) {
             Some(next) => scene.with_mesh_file(next)?,
-            None => scene.split()?,
+            None => scene.with_halved_cells()?,
         };
     }
 }

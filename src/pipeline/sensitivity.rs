@@ -18,7 +18,7 @@ struct Parameter {
 impl Solution {
     /// Derivatives of the totals with respect to friction, gaps, factors of loads and supports, motions of
     /// obstacles (named as in [`Variation`](super::Variation)) and a factor on the moduli of each
-    /// body (`bodies[0].young`), all from one factorisation of the contacts' Newton matrix (D15). None for a
+    /// body (`bodies[0].young`), all from one factorisation of the contacts' Newton matrix (D16). None for a
     /// solution without certificate.
     ///
     /// ```

@@ -29,7 +29,7 @@ impl Scene {
     /// # Errors
     ///
     /// Those of reading or generating its meshes.
-    pub fn split(&self) -> Result<Self, Error> {
+    pub fn with_halved_cells(&self) -> Result<Self, Error> {
         let folder = self.source.parent().unwrap_or(Path::new(""));
         let mut scene = self.clone();
         let bodies = scene.bodies.iter_mut().enumerate();

@@ -40,7 +40,7 @@ fn assert_near(found: f64, expected: f64, tolerance: f64) {
 
 /// Right half of a steel body with a parabolic bottom, R = 100 mm, pushed 0.0175 mm down on a
 /// rigid plane; mm and MPa.
-fn parabola() -> Value {
+pub(crate) fn parabola() -> Value {
     json!({
         "units": "mm, N, MPa",
         "bodies": [{

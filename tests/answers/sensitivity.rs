@@ -8,6 +8,8 @@ use dpana::scene::MeshSource;
 use dpana::{Scene, Search, Solution, Status, Variation, cases, find, solve};
 use serde_json::{Value, json};
 
+use crate::hertz::parabola;
+
 fn certified(scene: &Value) -> Solution {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scene.json");
     let solution = solve(&Scene::from_json(&scene.to_string(), file).unwrap()).unwrap();
@@ -189,21 +191,7 @@ fn an_obstacle_that_moves_changes_the_totals_as_cases_say() {
 #[test]
 fn a_line_contact_grows_as_hertz_says() {
     // p₀ ∝ √P and a ∝ √P: dp₀/dP = p₀/(2P), da/dP = a/(2P) with a = 2P/(π p₀); whatever the far side of the body.
-    let solution = certified(&json!({
-        "bodies": [{
-            "mesh": {"file": "data/meshes/B1_hertz_n32.msh"},
-            "model": "plane_strain",
-            "materials": [{"young": 210e3, "poisson": 0.3}],
-            "supports": [
-                {"group": "sym", "displacement": [0, null]},
-                {"group": "top", "displacement": [null, -0.0175]}
-            ]
-        }],
-        "contacts": [{
-            "group": "contact", "friction": 0,
-            "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}}
-        }]
-    }));
+    let solution = certified(&parabola());
     let report = solution.report().unwrap();
     let totals = &report.totals;
     let (load, peak) = (2.0 * totals.normal, totals.peak_pressure);

@@ -27,32 +27,15 @@ pub(crate) fn vtk_kind(kind: CellKind) -> (u8, &'static [usize]) {
     }
 }
 
-/// Kinds of cells that VTU files hold.
-const KINDS: [CellKind; 14] = [
-    CellKind::Tri3,
-    CellKind::Quad4,
-    CellKind::Tet4,
-    CellKind::Hex8,
-    CellKind::Tri6,
-    CellKind::Quad8,
-    CellKind::Quad9,
-    CellKind::Tet10,
-    CellKind::Hex20,
-    CellKind::Hex27,
-    CellKind::Prism6,
-    CellKind::Prism15,
-    CellKind::Pyramid5,
-    CellKind::Pyramid13,
-];
-
 /// Shape and number of nodes of VTK's number of a cell.
 pub(super) fn shape(number: usize) -> Result<(Shape, usize), String> {
-    let same = |kind: &&CellKind| usize::from(vtk_kind(**kind).0) == number;
+    if let Some(kind) = CellKind::all().find(|kind| usize::from(vtk_kind(*kind).0) == number) {
+        return Ok((Shape::Cell(kind), kind.node_count()));
+    }
     let name = match number {
         1 => return Ok((Shape::Point, 1)),
         3 => return Ok((Shape::Line, 2)),
         21 => return Ok((Shape::Line, 3)),
-        _ if KINDS.iter().any(|kind| same(&kind)) => "",
         2 | 4 | 6 => "several in one",
         7 => "a polygon",
         8 | 11 => "a pixel or voxel",
@@ -60,14 +43,11 @@ pub(super) fn shape(number: usize) -> Result<(Shape, usize), String> {
         68.. => "of Lagrange or Bézier kind",
         _ => "of another shape or order",
     };
-    match KINDS.iter().find(same) {
-        Some(&kind) => Ok((Shape::Cell(kind), kind.node_count())),
-        None => Err(format!(
-            "kind {number} ({name}) is not read; expected points (1), lines (3, 21), triangles (5, 22), \
-             quadrilaterals (9, 23, 28), tetrahedra (10, 24), hexahedra (12, 25, 29), prisms (13, 26) or \
-             pyramids (14, 27)"
-        )),
-    }
+    Err(format!(
+        "kind {number} ({name}) is not read; expected points (1), lines (3, 21), triangles (5, 22), \
+         quadrilaterals (9, 23, 28), tetrahedra (10, 24), hexahedra (12, 25, 29), prisms (13, 26) or \
+         pyramids (14, 27)"
+    ))
 }
 
 /// Nodes of a cell in the mesh's order.
