@@ -4,6 +4,7 @@ use crate::kkt::{Impossibility, Verdict};
 
 /// A solved contact problem.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Certified, or not.
     pub status: Status,
@@ -134,6 +135,7 @@ pub struct SweepRecord {
 
 /// Counts and seconds of a whole solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Work {
     /// Gauss–Seidel passes of the prediction (or of the baseline).
     pub passes: usize,
@@ -192,6 +194,7 @@ impl Work {
 
 /// Wall time by stage of the outer loop, in second.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Seconds {
     /// Prediction.
     pub predict: f64,

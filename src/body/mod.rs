@@ -138,6 +138,7 @@ pub enum Formulation {
 
 /// A linear elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Material {
     /// Young's modulus `E > 0`, in pascal.
     pub young: f64,
@@ -153,6 +154,7 @@ pub struct Material {
 
 /// Nodes whose displacement is given, component by component.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Support {
     /// Where the scene says so, for messages, such as `bodies[0].supports[1]`.
     pub place: String,
@@ -164,6 +166,20 @@ pub struct Support {
     pub offsets: Vec<[f64; 3]>,
     /// Orthonormal directions of the components per node; none at all where they are the global axes.
     pub axes: Vec<[[f64; 3]; 3]>,
+}
+
+impl Support {
+    /// A support of nodes along the global axes, with the components of their displacement that it gives, in metre.
+    #[must_use]
+    pub fn new(place: &str, nodes: Vec<usize>, displacement: [Option<f64>; 3]) -> Self {
+        Self {
+            place: place.to_owned(),
+            nodes,
+            displacement,
+            offsets: Vec::new(),
+            axes: Vec::new(),
+        }
+    }
 }
 
 /// A given force on the body.
@@ -263,6 +279,7 @@ pub enum Load {
 
 /// An elastic body: mesh, material, supports and loads.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Body {
     /// Name for messages and reports.
     pub name: String,
@@ -287,6 +304,23 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body on a mesh, every cell of the first of its `materials`, with nothing on it yet.
+    #[must_use]
+    pub fn new(name: &str, mesh: Mesh, model: Model, materials: Vec<Material>) -> Self {
+        Self {
+            name: name.to_owned(),
+            material_of_cell: vec![0; mesh.cell_count()],
+            mesh,
+            model,
+            materials,
+            supports: Vec::new(),
+            loads: Vec::new(),
+            foundation: Vec::new(),
+            formulation: Formulation::Standard,
+            ties: Vec::new(),
+        }
+    }
+
     /// Stiffness matrix without supports (B3), in N/m: symmetric, both triangles, rows
     /// `dimension · node + axis` with ascending columns.
     ///

@@ -360,13 +360,11 @@ mod tests {
         let right = facets(&body.mesh, "right");
         // Contacts of quadratic facets beside it would be dragged along.
         let across = if kind.is_linear() { 0.01 } else { 0.0 };
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
-            displacement: [Some(0.0), Some(across), Some(0.0)],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
+        body.supports.push(Support::new(
+            "supports[0]",
+            right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            [Some(0.0), Some(across), Some(0.0)],
+        ));
         body.loads.push(Load::Pressure {
             facets: facets(&body.mesh, "top"),
             pressure: 0.7,
@@ -374,20 +372,16 @@ mod tests {
         let vertical = kind.dimension() - 1;
         let mut normal = [0.0; 3];
         normal[vertical] = 2.0;
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets(&body.mesh, "bottom"),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&body.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: normal.map(|component| -0.0005 * component),
                 normal,
             }),
-            friction: 0.4,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.4,
+        );
         (body, pair)
     }
 
@@ -560,13 +554,9 @@ mod tests {
         let mut square = body(mesh, Model::PlaneStrain, 0.2);
         square.materials[0].young = 1.3e11;
         let mut hold = |nodes: Vec<usize>, displacement| {
-            square.supports.push(Support {
-                place: "supports".to_owned(),
-                nodes,
-                displacement,
-                offsets: Vec::new(),
-                axes: Vec::new(),
-            });
+            square
+                .supports
+                .push(Support::new("supports", nodes, displacement));
         };
         hold((8..81).step_by(9).collect(), [Some(0.0), None, None]);
         hold(vec![8], [None, Some(0.0), None]);
@@ -576,20 +566,16 @@ mod tests {
                 pressure,
             });
         }
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets(&square.mesh, "bottom"),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&square.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
             }),
-            friction: 0.0,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.0,
+        );
         let condensed = Condensed::new(&[square], &[pair]).unwrap();
         assert_eq!(condensed.surface().left_out, [(0, 8)]);
         // Every contact closes: S t = −û, for the gap is zero.
@@ -669,27 +655,19 @@ mod tests {
         mesh.push_cell(CellKind::Quad4, &[0, 1, 2, 3]);
         mesh.push_cell(CellKind::Quad4, &[2, 4, 5, 6]);
         let mut hinged = body(mesh, Model::PlaneStrain, 0.3);
-        hinged.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: vec![0, 3],
-            displacement: [Some(0.0); 3],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: vec![Facet { nodes: vec![2, 4] }],
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        hinged
+            .supports
+            .push(Support::new("supports[0]", vec![0, 3], [Some(0.0); 3]));
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            vec![Facet { nodes: vec![2, 4] }],
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
             }),
-            friction: 0.5,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.5,
+        );
         let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(
             matches!(found, Error::NotPositiveDefinite { .. }),

@@ -146,27 +146,21 @@ mod tests {
     fn condensed() -> Condensed {
         let mut body = distorted(CellKind::Hex8);
         let right = facets(&body.mesh, "right");
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
-            displacement: [Some(0.0), Some(0.01), Some(-0.02)],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets(&body.mesh, "bottom"),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        body.supports.push(Support::new(
+            "supports[0]",
+            right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            [Some(0.0), Some(0.01), Some(-0.02)],
+        ));
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&body.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0, 0.0, -1.0],
                 normal: [0.28, 0.0, 0.96],
             }),
-            friction: 0.3,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.3,
+        );
         Condensed::new(&[body], &[pair]).unwrap()
     }
 

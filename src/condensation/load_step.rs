@@ -142,33 +142,27 @@ mod tests {
     fn pressed(moved: f64, pressure: f64, plane: f64) -> (Body, ContactPair) {
         let mut body = distorted(CellKind::Hex8);
         let right = facets(&body.mesh, "right");
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
-            displacement: [Some(0.0), Some(moved), Some(0.0)],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
+        body.supports.push(Support::new(
+            "supports[0]",
+            right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            [Some(0.0), Some(moved), Some(0.0)],
+        ));
         let facets_of = |side| facets(&body.mesh, side);
         let (top, bottom) = (facets_of("top"), facets_of("bottom"));
         body.loads = vec![Load::Pressure {
             facets: top,
             pressure,
         }];
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: bottom,
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            bottom,
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0, 0.0, plane],
                 normal: [0.0, 0.0, 1.0],
             }),
-            friction: 0.0,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.0,
+        );
         (body, pair)
     }
 

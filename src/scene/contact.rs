@@ -16,6 +16,7 @@ use crate::error::Error;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a contact")]
+#[non_exhaustive]
 pub struct SceneContact {
     /// Group of surface facets; it need only contain the true contact. Of two
     /// surfaces the one carries the contacts that has fewer facets on which the other one ends, this one if

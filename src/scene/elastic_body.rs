@@ -17,6 +17,7 @@ use crate::error::Error;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a body")]
+#[non_exhaustive]
 pub struct SceneBody {
     /// Name for messages and reports.
     #[serde(default = "unnamed")]

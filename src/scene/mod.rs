@@ -87,6 +87,7 @@ use rigid_body::Resolved;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene")]
+#[non_exhaustive]
 pub struct Scene {
     /// Where editors find the schema of scenes; not read.
     #[serde(default, rename = "$schema", skip_serializing_if = "Option::is_none")]

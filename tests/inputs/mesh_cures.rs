@@ -21,11 +21,10 @@ fn refusal(text: &str, own: &str, against: Option<&str>) -> String {
     let mesh = gmsh::parse(text, "part.msh").unwrap();
     let pair = match against {
         Some(against) => contact(["part", own], ["part", against], 0.3),
-        None => SceneContact {
-            against: None,
-            obstacle: Some(SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0])),
-            ..contact(["part", own], ["part", own], 0.3)
-        },
+        None => {
+            let floor = SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0]);
+            SceneContact::on(floor, own, 0.3).of("part")
+        }
     };
     let scene = scene(vec![body("part", mesh, 1000.0, 0.3)], vec![pair]);
     solve(&scene).unwrap_err().to_string()

@@ -53,29 +53,14 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
         point: axes([0.0; 3]),
         normal: axes(up),
     };
-    Scene {
-        bodies: vec![SceneBody {
-            name: "part".into(),
-            model: (dimension == 2).then_some(SceneModel::PlaneStrain),
-            materials: vec![SceneMaterial::new(1000.0, 0.3)],
-            supports: if choice % 2 == 0 { vec![hold] } else { vec![] },
-            loads: vec![load],
-            mesh: MeshSource::Given(mesh),
- foundation: Vec::new(),
-formulation: dpana::scene::SceneFormulation::default(),
-groups: std::collections::BTreeMap::new(),
-        }],
-        contacts: vec![SceneContact {
-            group: any(facets.first()),
-            body: None,
-            obstacle: (!against).then_some(obstacle),
-            against: against.then(|| SceneSurface {
-                body: None,
-                group: any(facets.get(1)),
-            }),
-            friction: Some(0.3),
-            ..SceneContact::default()
-        }],
-        ..Scene::default()
+    let group = any(facets.first());
+    let mut contact = SceneContact::on(obstacle, &group, 0.3);
+    if against {
+        contact = SceneContact::between(["part", &group], ["part", &any(facets.get(1))], 0.3);
     }
+    let mut body = SceneBody::new("part", mesh).with_material(SceneMaterial::new(1000.0, 0.3));
+    body.model = (dimension == 2).then_some(SceneModel::PlaneStrain);
+    body.supports.extend((choice % 2 == 0).then_some(hold));
+    body.loads.push(load);
+    Scene::new(vec![body], vec![contact])
 }
