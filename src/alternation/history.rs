@@ -29,6 +29,14 @@ pub struct Outcome {
     pub work: Work,
 }
 
+impl Seconds {
+    /// Of all stages.
+    pub(crate) fn total(&self) -> f64 {
+        let programs = self.coulomb + self.normal + self.friction;
+        self.predict + programs + self.finish + self.judge
+    }
+}
+
 impl Outcome {
     /// This one, with what led to the one that it goes on from.
     pub(crate) fn after(mut self, before: Self) -> Self {

@@ -5,17 +5,18 @@ use std::time::Instant;
 
 use faer::Mat;
 
-use super::CondensationWork;
 use super::PartMotion;
 use super::carried::Carried;
 use super::condensed_body::CondensedBody;
+use super::factor::Precision;
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::laws::{friction, under_laws};
 use super::load_case::Given;
 use super::rigid_bodies::{floating, part_motions, rigid_parts};
 use super::room::dense_bytes;
-use super::supported::{OfInterface, SupportedBody};
+use super::supported::SupportedBody;
+use super::work::{CondensationWork, Fallback};
 use crate::body;
 use crate::body::{Body, Dependence};
 use crate::contact::{ContactPair, ContactSurface, RigidBody, RigidMotion};
@@ -57,6 +58,48 @@ pub(super) fn supported<'a>(
     }
 }
 
+/// Prescribed displacement per body and degree of freedom, in metre.
+type Prescribed = Vec<Vec<Option<f64>>>;
+
+/// What is given of a body: prescribed displacements, what depends on what, and its side of the contacts.
+pub(super) type GivenBody = (Vec<Option<f64>>, Option<Dependence>, Interface);
+
+/// What is given of every body.
+pub(super) fn given(
+    bodies: &[Body],
+    surface: &ContactSurface,
+    prescribed: Prescribed,
+) -> Result<Vec<GivenBody>, Error> {
+    let bodies = bodies.iter().zip(prescribed).enumerate();
+    let of_one = |(index, (body, prescribed)): (usize, (&Body, Vec<_>))| {
+        let tied = body::dependence(body)?;
+        let dimension = body.mesh.dimension;
+        let interface = Interface::new(surface, index, dimension, (&prescribed, tied.as_ref()));
+        Ok((prescribed, tied, interface))
+    };
+    bodies.map(of_one).collect()
+}
+
+/// Single precision only of bodies that (C24) can set right.
+pub(super) fn possible(wanted: Precision, bodies: &[Body], given: &[GivenBody]) -> Precision {
+    let held = |(body, (prescribed, _, interface)): (&Body, &GivenBody)| {
+        interface.border.is_empty() && body::free_modes(body, prescribed).modes.is_empty()
+    };
+    match wanted {
+        Precision::Single if bodies.iter().zip(given).all(held) => Precision::Single,
+        _ => Precision::Double,
+    }
+}
+
+/// Checks bodies; what their supports prescribe.
+fn checked(bodies: &[Body]) -> Result<Prescribed, Error> {
+    let of_one = |body| {
+        body::check(body)?;
+        body::prescribed(body)
+    };
+    bodies.iter().map(of_one).collect()
+}
+
 impl Condensed {
     /// Condenses bodies onto the surfaces where they may touch obstacles or each other.
     ///
@@ -80,13 +123,58 @@ impl Condensed {
         rigid: &[RigidBody],
     ) -> Result<Self, Error> {
         let start = Instant::now();
-        let mut prescribed = Vec::with_capacity(bodies.len());
-        for body in bodies {
-            body::check(body)?;
-            prescribed.push(body::prescribed(body)?);
-        }
+        let prescribed = checked(bodies)?;
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
-        Self::on_surface(bodies, (pairs, rigid), surface, prescribed, start)
+        let surface = Arc::new(surface);
+        let given = (pairs, rigid, prescribed);
+        Self::on_surface(bodies, given, surface, Precision::Double, start)
+    }
+
+    /// The same with factors in single precision (C32) where that pays and (C24) can make up for it: û and G have
+    /// seven digits, until contacts that are solved are [corrected](Self::correction).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_rigid`](Self::with_rigid).
+    pub fn rounded(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let prescribed = checked(bodies)?;
+        let surface = Arc::new(ContactSurface::new(bodies, pairs, &prescribed)?);
+        let given = (pairs, rigid, prescribed);
+        Self::on_surface(bodies, given, surface, Precision::Single, start)
+    }
+
+    /// The same bodies with factors in double precision, instead of these; with the sign that asks for it, if any.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_rigid`](Self::with_rigid).
+    pub fn in_double(
+        self,
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        sign: impl Into<Option<Fallback>>,
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let (surface, before) = (Arc::clone(&self.surface), self.work);
+        let rigid = self.carried.bodies().to_vec();
+        // Before there are others.
+        drop(self);
+        let given = (pairs, &rigid[..], checked(bodies)?);
+        let mut found = Self::on_surface(bodies, given, surface, Precision::Double, start)?;
+        found.work = before.again(found.work);
+        found.work.fallback = sign.into().or(before.fallback);
+        Ok(found)
+    }
+
+    /// Whether a factor is in single precision (C32).
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        self.work.single_factors > 0
     }
 
     /// The same bodies on a contact surface that is found already, and maybe changed since.
@@ -104,41 +192,42 @@ impl Condensed {
             .iter()
             .map(body::prescribed)
             .collect::<Result<_, _>>()?;
-        Self::on_surface(bodies, (pairs, &[]), surface, prescribed, start)
+        let (given, surface) = ((pairs, &[][..], prescribed), Arc::new(surface));
+        Self::on_surface(bodies, given, surface, Precision::Double, start)
     }
 
     fn on_surface(
         bodies: &[Body],
-        (pairs, rigid): (&[ContactPair], &[RigidBody]),
-        surface: ContactSurface,
-        prescribed: Vec<Vec<Option<f64>>>,
+        (pairs, rigid, prescribed): (&[ContactPair], &[RigidBody], Prescribed),
+        surface: Arc<ContactSurface>,
+        wanted: Precision,
         start: Instant,
     ) -> Result<Self, Error> {
         stage::found(surface.nodes.len(), dense_bytes(&surface)?);
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
+        let given = given(bodies, &surface, prescribed)?;
+        let wanted = if rigid.is_empty() {
+            wanted
+        } else {
+            Precision::Double
+        };
+        let precision = possible(wanted, bodies, &given);
         let (mut condensed, mut interfaces) = (Vec::new(), Vec::new());
-        let mut of_interfaces = Vec::new();
-        for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
+        let mut compliances = Vec::new();
+        for (body, (prescribed, tied, interface)) in bodies.iter().zip(given) {
             Stage::Assembly.begin();
-            let dependence = body::dependence(body)?;
-            let interface = Interface::new(
-                &surface,
-                index,
-                dimension,
-                (&prescribed, dependence.as_ref()),
-            );
-            let supported = supported(body, (prescribed, dependence), &interface);
-            let (body, of_interface) = supported.condense(&interface, &mut work)?;
+            let supported = supported(body, (prescribed, tied), &interface);
+            let (body, compliance) = supported.condense(&interface, precision, &mut work)?;
             condensed.push(body);
             interfaces.push(interface);
-            of_interfaces.push(of_interface);
+            compliances.push(compliance);
         }
         let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
         Stage::Condensation.begin();
         let start = Instant::now();
-        let mut problem = join(&surface, pairs, &interfaces, &condensed, of_interfaces)?;
+        let mut problem = join(&surface, pairs, &interfaces, &condensed, compliances)?;
         let groundings: Vec<_> = condensed.iter().map(CondensedBody::grounding).collect();
         let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
         let carried = Carried::new(rigid, bodies, &surface);
@@ -147,7 +236,7 @@ impl Condensed {
         }
         work.condensation_seconds += start.elapsed().as_secs_f64();
         let mut condensed = Self {
-            surface: Arc::new(surface),
+            surface,
             problem,
             bodies: condensed,
             interfaces: interfaces.into(),
@@ -300,7 +389,7 @@ fn join(
     pairs: &[ContactPair],
     interfaces: &[Interface],
     bodies: &[CondensedBody],
-    of_interfaces: Vec<OfInterface>,
+    compliances: Vec<Mat<f64>>,
 ) -> Result<ContactProblem, Error> {
     let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
@@ -309,14 +398,14 @@ fn join(
         let action = &body.action;
         interface.add_displacement(action, &action.free_displacement, &mut free_displacement);
     }
-    let mut operators = of_interfaces.into_iter().map(OfInterface::operator);
-    let operator = match (interfaces, operators.next().transpose()?) {
-        ([interface], Some(operator)) if interface.is_identity() => operator,
+    let mut compliances = compliances.into_iter();
+    let operator = match (interfaces, compliances.next()) {
+        ([interface], Some(own)) if interface.is_identity() => Operator::of_body(own),
         (_, first) => {
             let mut compliance = Mat::zeros(unknowns, unknowns);
-            let operators = first.map(Ok).into_iter().chain(operators);
-            for (interface, operator) in interfaces.iter().zip(operators) {
-                interface.add_compliance(operator?.compliance(), &mut compliance);
+            let compliances = first.into_iter().chain(compliances);
+            for (interface, own) in interfaces.iter().zip(compliances) {
+                interface.add_compliance(&own, &mut compliance);
             }
             Operator::from_bodies(compliance)?
         }

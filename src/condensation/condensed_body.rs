@@ -157,14 +157,20 @@ impl FactoredBody {
         displacement
     }
 
-    /// x of (C6).
-    fn solve(&self, half_solved: &[f64], forces: &[f64]) -> Vec<f64> {
+    /// `y + [0, L_cc⁻¹ t]` of (C6).
+    pub(super) fn half_solved_under(&self, half_solved: &[f64], forces: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.ordering.unknowns()];
         x[self.ordering.ordinary()..].copy_from_slice(forces);
         self.factor.forward_on_contact(&mut x);
         for (x, y) in x.iter_mut().zip(half_solved) {
             *x += y;
         }
+        x
+    }
+
+    /// x of (C6).
+    pub(super) fn solve(&self, half_solved: &[f64], forces: &[f64]) -> Vec<f64> {
+        let mut x = self.half_solved_under(half_solved, forces);
         self.factor.backward(&mut x);
         x
     }

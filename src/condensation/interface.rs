@@ -160,6 +160,13 @@ impl Interface {
         }
     }
 
+    /// Adds `B_k v_k` (C11) alone.
+    pub(super) fn add_own_displacement(&self, of_body: &[f64], displacement: &mut [f64]) {
+        for (u, row) in displacement.iter_mut().zip(&self.rows) {
+            *u += row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
+        }
+    }
+
     /// Adds `B_k G_k B_kᵀ` (C11) to both triangles.
     pub(crate) fn add_compliance(&self, of_body: &Mat<f64>, compliance: &mut Mat<f64>) {
         let mut column = vec![0.0; self.unknowns];

@@ -11,8 +11,8 @@
 //! | step | file |
 //! |---|---|
 //! | the stiffness in the contact's axes (C4) | `local_axes` |
-//! | order of elimination, contact last | `ordering`, `elimination_tree` |
-//! | factor, trailing block (C2), substitutions | `columns`, `factor`, `substitution` |
+//! | order of elimination, contact last | `ordering`, `dissection`, `elimination_tree` |
+//! | factor (C32), trailing block (C2), substitutions | `columns`, `factor`, `supernodes`, `substitution` |
 //! | where contacts see less than their nodes: a border (C17) | `border` |
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `load_case`, `superposition` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
@@ -29,6 +29,7 @@ mod columns;
 mod condensed;
 mod condensed_body;
 mod correction;
+mod dissection;
 mod elimination_tree;
 mod estimate;
 mod factor;
@@ -43,6 +44,7 @@ mod rates;
 mod rigid_bodies;
 mod room;
 mod substitution;
+mod supernodes;
 mod superposition;
 mod supported;
 #[cfg(test)]
@@ -51,11 +53,13 @@ mod work;
 
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
+pub use correction::Correction;
 pub use estimate::Estimate;
 pub(crate) use estimate::estimate;
+pub(crate) use factor::Precision;
 pub(crate) use laws::friction;
 pub(crate) use rates::BodyRate;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
 pub(crate) use room::dense_bytes;
 pub(crate) use superposition::{Driven, Superposition};
-pub(crate) use work::CondensationWork;
+pub use work::{CondensationWork, Fallback};

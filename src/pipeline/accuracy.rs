@@ -119,8 +119,8 @@ fn stopped(request: &Request, solution: &Solution, solved: usize) -> Option<Stri
     let dimension = solution.bodies()[0].mesh.dimension;
     let work = solution.condensed().work();
     let contact = solution.condensed().problem().unknowns() << (dimension - 1);
-    let factor = FACTOR[dimension - 2] * work.factor_entries;
-    let bytes = 8 * (DENSE * contact * contact + factor);
+    let factor = FACTOR[dimension - 2] * work.factor_bytes;
+    let bytes = 8 * DENSE * contact * contact + factor;
     (bytes > request.memory).then(|| {
         let [needed, most] = [bytes, request.memory].map(|bytes| bytes as f64 * 1e-9);
         format!("the next mesh takes about {needed:.3} GB of the {most:.3} GB there are")

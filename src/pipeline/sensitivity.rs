@@ -108,7 +108,7 @@ impl Solution {
     }
 
     fn recovered(&self, parameter: &Parameter, rate: &Rate) -> Vec<Vec<f64>> {
-        let condensed = &self.setup.condensed;
+        let condensed = self.most_precise();
         condensed.recover_rate(parameter.body.as_ref(), &rate.reaction, &rate.motion)
     }
 
@@ -140,7 +140,7 @@ impl Solution {
         if self.status() != Status::Certified {
             return Ok(None);
         }
-        let problem = self.setup.condensed.problem();
+        let problem = self.precise()?.problem();
         let Some(mut laws) = Linearised::new(problem, &self.outcome)? else {
             return Ok(None);
         };
@@ -173,7 +173,7 @@ impl Solution {
             if !wanted(&name) {
                 continue;
             }
-            let condensed = &self.setup.condensed;
+            let condensed = self.most_precise();
             let rate = condensed.rate_of_young(index, body, &self.displacements[index]);
             all.push(Parameter {
                 name,
@@ -187,7 +187,7 @@ impl Solution {
 
     /// What a unit of a quantity changes; none of friction where contacts have no tangent for it.
     fn drive(&self, quantity: &Quantity) -> Result<Option<(Drive, Option<BodyRate>)>, Error> {
-        let condensed = &self.setup.condensed;
+        let condensed = self.most_precise();
         let (problem, nodes) = (condensed.problem(), &condensed.surface().nodes);
         let mut drive = Drive::none(problem);
         let blocks = nodes.iter().zip(problem.blocks());
@@ -222,7 +222,7 @@ impl Solution {
     }
 
     fn driven_by(&self, rate: &BodyRate) -> Drive {
-        let condensed = &self.setup.condensed;
+        let condensed = self.most_precise();
         let (beyond, load) = condensed.driven_by(rate);
         Drive {
             beyond,

@@ -4,11 +4,12 @@ use super::halving::Halving;
 use super::substep::{Course, State};
 use super::{Setup, Solution};
 use crate::alternation::Status;
+use crate::condensation::Condensed;
 use crate::error::{Error, check_length};
 use crate::kkt::Ledger;
+use crate::report;
 use crate::scene::{Exact, Fingerprint, LoadHistory, SavedState, Scene, exact, plain};
 use crate::trust::Earlier;
-use crate::{alternation, report};
 
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
 /// first state that is not certified, and returns that state.
@@ -59,17 +60,16 @@ pub fn solve_steps(
         rigid => Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts, rigid)),
     };
     let history = std::mem::take(&mut mechanics.history);
-    let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let Some(&last) = history.instants().last() else {
         if from.is_some() {
             return Err(at_scene(not_of_this_scene("a state", "a scene with steps")));
         }
-        let problem = setup.condensed.problem();
-        let outcome = alternation::solve(problem, &setup.settings).map_err(at_scene)?;
-        let solution = setup.recover(outcome)?;
+        let setup = Setup::with(scene, mechanics, Condensed::rounded).map_err(at_scene)?;
+        let solution = setup.solve().map_err(at_scene)?;
         each(&solution)?;
         return Ok(solution);
     };
+    let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let mut past = Past {
         bodies,
         state: State::at_rest(&setup),

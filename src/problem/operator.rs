@@ -11,7 +11,9 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_inverse::invert_lower_triangular;
-use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par, Side, get_global_parallelism};
+use faer::traits::ComplexField;
+use faer::traits::math_utils::one;
+use faer::{Accum, ColMut, ColRef, Mat, Par, Side, get_global_parallelism};
 
 use super::Compliance;
 use crate::error::{Error, check_finite};
@@ -36,7 +38,6 @@ const SHIFT: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub struct Operator {
     compliance: Mat<f64>,
-    factor: Option<Mat<f64>>,
     stiffness: OnceLock<Option<Mat<f64>>>,
 }
 
@@ -101,11 +102,7 @@ impl Operator {
                 });
             }
         }
-        Ok(Self {
-            compliance,
-            factor: None,
-            stiffness: OnceLock::new(),
-        })
+        Ok(Self::of_body(compliance))
     }
 
     /// Refuses a G of negative energy: a reaction `t` with `½ t · G t < 0`.
@@ -136,12 +133,11 @@ impl Operator {
         })
     }
 
-    /// Takes the trailing block `L_cc` of a Cholesky factor (C2); its upper triangle is not read.
+    /// Takes G of a body as its factor gives it: symmetric to the last bit and definite.
     #[must_use]
-    pub(crate) fn from_factor(factor: Mat<f64>) -> Self {
+    pub(crate) fn of_body(compliance: Mat<f64>) -> Self {
         Self {
-            compliance: inverse_of_product(factor.as_ref()),
-            factor: Some(factor),
+            compliance,
             stiffness: OnceLock::new(),
         }
     }
@@ -170,16 +166,8 @@ impl Operator {
     }
 
     fn form_stiffness(&self) -> Option<Mat<f64>> {
-        if let Some(factor) = &self.factor {
-            return Some(symmetric_product(
-                factor.as_ref(),
-                BlockStructure::TriangularLower,
-                factor.transpose(),
-                BlockStructure::TriangularUpper,
-            ));
-        }
         let cholesky = self.cholesky()?;
-        Some(inverse_of_product(cholesky.L()))
+        Some(inverse_of_product(cholesky.L().to_owned()))
     }
 
     /// Factor of G, or of `G + ε 1` where G is numerically singular.
@@ -268,36 +256,22 @@ fn check_symmetric(compliance: &Mat<f64>, largest: f64) -> Result<(), Error> {
     })
 }
 
-/// `(L Lᵀ)⁻¹ = L⁻ᵀ L⁻¹` (C2); the upper triangle of L is not read.
-fn inverse_of_product(lower: MatRef<'_, f64>) -> Mat<f64> {
-    let mut inverse = Mat::zeros(lower.nrows(), lower.nrows());
-    invert_lower_triangular(inverse.as_mut(), lower, get_global_parallelism());
-    symmetric_product(
-        inverse.transpose(),
-        BlockStructure::TriangularUpper,
-        inverse.as_ref(),
-        BlockStructure::TriangularLower,
-    )
-}
-
-/// Product of a triangular matrix and its transpose, half computed and half mirrored.
-fn symmetric_product(
-    left: MatRef<'_, f64>,
-    left_structure: BlockStructure,
-    right: MatRef<'_, f64>,
-    right_structure: BlockStructure,
-) -> Mat<f64> {
-    let size = left.nrows();
+/// `(L Lᵀ)⁻¹ = L⁻ᵀ L⁻¹` (C2), both triangles; the upper triangle of L is not read.
+pub(crate) fn inverse_of_product<T: ComplexField + Copy>(lower: Mat<T>) -> Mat<T> {
+    let size = lower.nrows();
+    let mut inverse = Mat::zeros(size, size);
+    invert_lower_triangular(inverse.as_mut(), lower.as_ref(), get_global_parallelism());
+    drop(lower);
     let mut product = Mat::zeros(size, size);
     triangular::matmul(
         product.as_mut(),
         BlockStructure::TriangularLower,
         Accum::Replace,
-        left,
-        left_structure,
-        right,
-        right_structure,
-        1.0,
+        inverse.transpose(),
+        BlockStructure::TriangularUpper,
+        inverse.as_ref(),
+        BlockStructure::TriangularLower,
+        one::<T>(),
         get_global_parallelism(),
     );
     for j in 0..size {
@@ -317,11 +291,11 @@ mod tests {
     #[test]
     fn compliance_and_stiffness_of_a_factor_are_inverse() {
         let factor = mat![[2.0, 9.0, 9.0], [1.0, 3.0, 9.0], [-1.0, 0.5, 1.5]];
-        let operator = Operator::from_factor(factor);
+        let operator = Operator::of_body(inverse_of_product(factor));
         let product = operator.compliance() * operator.stiffness().unwrap();
         assert!((product - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
         // S = L Lᵀ: row 2 of L is (1, 3, 0), so S_11 = 10.
-        assert!((operator.stiffness().unwrap()[(1, 1)] - 10.0).abs() < 1e-14);
+        assert!((operator.stiffness().unwrap()[(1, 1)] - 10.0).abs() < 1e-13);
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::digits::{number, size};
 use super::{
     Largest, Report, ReportedBalance, ReportedDefect, ReportedDerivative, ReportedFailure,
-    ReportedShortfall, ReportedStatus,
+    ReportedShortfall, ReportedStatus, ReportedWork,
 };
 
 /// How many contact pairs the summary lists before it only counts them.
@@ -362,8 +362,9 @@ fn work(text: &mut String, report: &Report) -> std::fmt::Result {
     let work = &report.work;
     writeln!(
         text,
-        "work            {}, {}, {}, {}",
+        "work            {}{}, {}, {}, {}",
         counted(work.factorisations, "factorisation"),
+        precision(work),
         counted(work.sweeps, "sweep"),
         counted(work.cone_iterations, "cone iteration"),
         counted(work.newton_steps, "Newton step"),
@@ -376,6 +377,18 @@ fn work(text: &mut String, report: &Report) -> std::fmt::Result {
     let (total, [before, after]) = (work.seconds.total, [&spent[..4], &spent[4..]]);
     writeln!(text, "seconds         {total:.3}: {},", before.join(", "))?;
     writeln!(text, "                {}", after.join(", "))
+}
+
+/// What is to be said of factors in single precision.
+fn precision(work: &ReportedWork) -> String {
+    match (&work.fallback, work.single_factors) {
+        (Some(sign), _) => format!(" (single precision is not enough: {sign})"),
+        (None, 0) => String::new(),
+        (None, _) => format!(
+            " in single precision with {}",
+            counted(work.corrections, "correction")
+        ),
+    }
 }
 
 fn counted(count: usize, what: &str) -> String {

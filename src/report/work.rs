@@ -4,12 +4,19 @@ use serde::Serialize;
 
 use super::ReportParts;
 use crate::alternation::SweepRecord;
+use crate::condensation::Fallback;
 
 /// What the stages around the outer loop took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageWork {
     /// Factorisations of the body's stiffness.
     pub factorisations: usize,
+    /// Factors that are in single precision.
+    pub single_factors: usize,
+    /// Rounds by which bodies and contacts were set right where factors have few digits.
+    pub corrections: usize,
+    /// Why single precision was given up, where it was.
+    pub fallback: Option<Fallback>,
     /// Seconds of stiffness and loads.
     pub assembly: f64,
     /// Seconds of the fill-reducing ordering.
@@ -28,6 +35,13 @@ pub struct StageWork {
 pub struct ReportedWork {
     /// Factorisations of the body's stiffness.
     pub factorisations: usize,
+    /// Factors that are in single precision.
+    pub single_factors: usize,
+    /// Rounds by which bodies and contacts were set right where factors have few digits.
+    pub corrections: usize,
+    /// Why single precision was given up for double precision; left out where it was not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fallback: Option<String>,
     /// Gauss–Seidel passes of the prediction.
     pub passes: usize,
     /// Sweeps of the outer loop.
@@ -107,6 +121,9 @@ impl ReportedWork {
         let (stages, work) = (parts.stages, &parts.outcome.work);
         Self {
             factorisations: stages.factorisations,
+            single_factors: stages.single_factors,
+            corrections: stages.corrections,
+            fallback: stages.fallback.map(|sign| sign.to_string()),
             passes: work.passes,
             sweeps: work.sweeps,
             coulomb_programs: work.coulomb_programs,

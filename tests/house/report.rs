@@ -22,6 +22,9 @@ const FLOOR: Obstacle = Obstacle::Plane {
 
 const STAGES: StageWork = StageWork {
     factorisations: 1,
+    single_factors: 0,
+    corrections: 0,
+    fallback: None,
     assembly: 0.5,
     ordering: 0.0,
     factorisation: 0.0,
@@ -366,6 +369,7 @@ fn names_of_the_report_are_stable() {
     assert_eq!(json["certificate"]["bodies"][0]["name"], "row");
     let work = [
         "cone_iterations",
+        "corrections",
         "coulomb_programs",
         "factorisations",
         "friction_program_contacts",
@@ -374,6 +378,7 @@ fn names_of_the_report_are_stable() {
         "normal_programs",
         "passes",
         "seconds",
+        "single_factors",
         "sweeps",
     ];
     assert_eq!(keys(&json["work"]), work);
