@@ -9,6 +9,7 @@ use super::PartMotion;
 use super::carried::Carried;
 use super::condensed_body::CondensedBody;
 use super::factor::Precision;
+use super::given::{Prescribed, checked, given, possible};
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::laws::{friction, under_laws};
@@ -56,48 +57,6 @@ pub(super) fn supported<'a>(
         },
         dependence,
     }
-}
-
-/// Prescribed displacement per body and degree of freedom, in metre.
-type Prescribed = Vec<Vec<Option<f64>>>;
-
-/// What is given of a body: prescribed displacements, what depends on what, and its side of the contacts.
-pub(super) type GivenBody = (Vec<Option<f64>>, Option<Dependence>, Interface);
-
-/// What is given of every body.
-pub(super) fn given(
-    bodies: &[Body],
-    surface: &ContactSurface,
-    prescribed: Prescribed,
-) -> Result<Vec<GivenBody>, Error> {
-    let bodies = bodies.iter().zip(prescribed).enumerate();
-    let of_one = |(index, (body, prescribed)): (usize, (&Body, Vec<_>))| {
-        let tied = body::dependence(body)?;
-        let dimension = body.mesh.dimension;
-        let interface = Interface::new(surface, index, dimension, (&prescribed, tied.as_ref()));
-        Ok((prescribed, tied, interface))
-    };
-    bodies.map(of_one).collect()
-}
-
-/// Single precision only of bodies that (C24) can set right.
-pub(super) fn possible(wanted: Precision, bodies: &[Body], given: &[GivenBody]) -> Precision {
-    let held = |(body, (prescribed, _, interface)): (&Body, &GivenBody)| {
-        interface.border.is_empty() && body::free_modes(body, prescribed).modes.is_empty()
-    };
-    match wanted {
-        Precision::Single if bodies.iter().zip(given).all(held) => Precision::Single,
-        _ => Precision::Double,
-    }
-}
-
-/// Checks bodies; what their supports prescribe.
-fn checked(bodies: &[Body]) -> Result<Prescribed, Error> {
-    let of_one = |body| {
-        body::check(body)?;
-        body::prescribed(body)
-    };
-    bodies.iter().map(of_one).collect()
 }
 
 impl Condensed {

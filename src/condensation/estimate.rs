@@ -1,7 +1,8 @@
 //! What a condensation will take, from the pattern of its factors: nothing is factorised.
 
-use super::condensed::{given, possible, supported};
+use super::condensed::supported;
 use super::factor::Precision;
+use super::given::{given, possible};
 use super::room::dense_bytes;
 use crate::body::Body;
 use crate::contact::ContactSurface;

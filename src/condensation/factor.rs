@@ -347,3 +347,83 @@ fn check_pivots<T: Number>(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::local_axes::Frames;
+    use crate::condensation::ordering::Role;
+    use crate::condensation::tests::lattice::Lattice;
+
+    /// Factors of a lattice in a unit, held at its bottom, with its top for contacts.
+    fn factors(unit: f64) -> [Factor; 2] {
+        let lattice = Lattice::new([5, 4, 3]);
+        let stiffness = lattice.stiffness().map(|k| unit * k);
+        let height = |dof: usize| lattice.position(dof / 3)[2];
+        let role = |dof| match height(dof) {
+            0.0 => Role::Held,
+            3.0 => Role::Contact,
+            _ => Role::Ordinary,
+        };
+        let roles: Vec<Role> = (0..3 * lattice.nodes()).map(role).collect();
+        let contact = (0..roles.len()).filter(|&dof| roles[dof] == Role::Contact);
+        let contact: Vec<usize> = contact.collect();
+        let ordering = Ordering::new(&stiffness, (&[], 3), &roles, &contact).unwrap();
+        let matrix = Matrix {
+            stiffness: &stiffness,
+            frames: &Frames::new(3, lattice.nodes(), &[]),
+            ordering: &ordering,
+            border: &[],
+        };
+        [Precision::Double, Precision::Single]
+            .map(|precision| Factor::new(&matrix, 3, precision).unwrap())
+    }
+
+    fn assert_seven_digits(found: &[f64], expected: &[f64]) {
+        let largest = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let pairs = found.iter().zip(expected);
+        let off = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(off < 1e-5 * largest && off > 0.0, "{off:e} of {largest:e}");
+    }
+
+    #[test]
+    fn single_precision_has_seven_digits_whatever_the_unit() {
+        // Beyond what four bytes can hold, but for the scale (C32).
+        for unit in [1e-60, 1.0, 1e60] {
+            let factors = factors(unit);
+            let [double, single] = factors.each_ref();
+            let solved = [double, single].map(|factor| {
+                let mut x: Vec<f64> = (0..factor.unknowns()).map(|k| (k as f64).sin()).collect();
+                factor.forward(&mut x);
+                factor.backward(&mut x);
+                x
+            });
+            assert_seven_digits(&solved[1], &solved[0]);
+            let on_contact = [double, single].map(|factor| {
+                let ordinary = factor.unknowns() - factor.contact_unknowns();
+                let mut x = vec![0.0; factor.unknowns()];
+                x[ordinary..].fill(1.0);
+                factor.forward_on_contact(&mut x);
+                factor.backward_on_contact(&mut x).to_vec()
+            });
+            assert_seven_digits(&on_contact[1], &on_contact[0]);
+            let [expected, found] = [double, single].map(Factor::compliance);
+            assert_seven_digits(found.col_as_slice(7), expected.col_as_slice(7));
+            // Forces on contacts alone move them by G.
+            let rows = expected.row_iter().map(|row| row.iter().sum::<f64>());
+            let moved: Vec<f64> = rows.collect();
+            let largest = moved.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+            let pairs = moved.iter().zip(&on_contact[0]);
+            assert!(pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) < 1e-12 * largest);
+        }
+    }
+
+    #[test]
+    fn half_the_bytes() {
+        let [double, single] = factors(1.0);
+        assert_eq!(double.entries(), single.entries());
+        let bytes = [double, single].map(|factor| factor.precision().bytes());
+        assert_eq!(bytes, [8, 4]);
+    }
+}

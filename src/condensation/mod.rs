@@ -15,6 +15,7 @@
 //! | factor (C32), trailing block (C2), substitutions | `columns`, `factor`, `supernodes`, `substitution` |
 //! | where contacts see less than their nodes: a border (C17) | `border` |
 //! | free displacement (C5), of driven loads and supports (C15) | `supported`, `load_case`, `superposition` |
+//! | what is given before, and which precision that allows | `given` |
 //! | several bodies, and what supports leave free (C11), (C3), (C12) | `interface`, `rigid_bodies`, `grounding` |
 //! | bodies without compliance (C31) | `carried` |
 //! | recovered body (C6), set right where the factor has few digits (C24) | `condensed_body`, `correction` |
@@ -33,6 +34,7 @@ mod dissection;
 mod elimination_tree;
 mod estimate;
 mod factor;
+mod given;
 mod grounding;
 mod interface;
 mod laws;
