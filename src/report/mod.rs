@@ -21,7 +21,7 @@
 //! | `found` | of `dpana find`: the parameter, its value, the total there and its derivative |
 //! | `sensitivity` | with `--sensitivity`: derivatives of the totals with respect to friction, gaps, loads, supports, obstacles, moduli |
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
-//! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
+//! | `work`, `history` | factorisations, those in single precision and the corrections they took, or why it was given up; sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
 //! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
