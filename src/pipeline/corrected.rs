@@ -33,32 +33,41 @@ pub(super) type Solved = (Outcome, Vec<Vec<f64>>);
 impl Setup {
     /// Displacements of the bodies of a solved problem, and the outcome that they belong to.
     pub(super) fn displacements(&mut self, mut outcome: Outcome) -> Result<Solved, Error> {
-        let condensed = &self.condensed;
-        let mut displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
-        if outcome.status != Status::Certified || !condensed.corrects() {
-            return Ok((outcome, displacements));
-        }
-        let said = of_bodies(condensed, &outcome);
-        let behind = AHEAD * largest(displacements.iter().flatten());
-        if largest(&condensed.ahead(&said, &displacements)?) <= behind {
+        let mut displacements = self.condensed.recover(&outcome.reaction, &outcome.motion)?;
+        if outcome.status != Status::Certified || !self.condensed.corrects() {
             return Ok((outcome, displacements));
         }
         let mut before = f64::INFINITY;
         for _ in 0..ROUNDS {
-            let correction = self.correction(&outcome, &displacements)?;
-            let ahead = largest(correction.ahead());
+            let ahead = largest(&self.ahead(&outcome, &displacements)?);
             let settled = ahead <= AHEAD * largest(displacements.iter().flatten());
             // What no longer gets less is rounding of û and t.
             if settled || ahead > 0.5 * before || outcome.status != Status::Certified {
-                let none = vec![0.0; outcome.reaction.len()];
-                self.condensed
-                    .advance(correction, &none, &mut displacements)?;
                 break;
             }
             before = ahead;
-            (outcome, _) = self.round(outcome, correction, &mut displacements)?;
+            self.refine(&outcome, &mut displacements)?;
+            let ahead = self.ahead(&outcome, &displacements)?;
+            self.condensed.shift(&ahead)?;
+            let problem = self.condensed.problem();
+            let again = alternation::solve_near(problem, &self.settings, &outcome)?;
+            outcome = again.after(outcome);
+            displacements = self.condensed.recover(&outcome.reaction, &outcome.motion)?;
+            self.refine(&outcome, &mut displacements)?;
         }
         Ok((outcome, displacements))
+    }
+
+    fn ahead(&self, outcome: &Outcome, displacements: &[Vec<f64>]) -> Result<Vec<f64>, Error> {
+        let said = of_bodies(&self.condensed, outcome);
+        self.condensed.ahead(&said, displacements)
+    }
+
+    /// The bodies set right under the reactions as they are.
+    fn refine(&self, outcome: &Outcome, displacements: &mut [Vec<f64>]) -> Result<(), Error> {
+        let correction = self.correction(outcome, displacements)?;
+        let none = vec![0.0; outcome.reaction.len()];
+        self.condensed.advance(correction, &none, displacements)
     }
 
     /// Solves with factors in single precision (C32), to all digits by rounds of (C24); or says by what sign they
