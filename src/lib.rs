@@ -79,6 +79,7 @@ pub mod validity;
 pub mod verify;
 
 pub use alternation::{Outcome, Settings, Status};
+pub use condensation::{Engine, Ranks};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{

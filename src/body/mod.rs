@@ -98,7 +98,7 @@ pub use orthotropic::{MaterialAxes, Orthotropic};
 pub(crate) use recovery::stress_recovery;
 pub(crate) use rigid_modes::{RigidMode, free_modes};
 pub use spread::Wrench;
-pub(crate) use stiffness::stiffness;
+pub(crate) use stiffness::{part_of_stiffness, stiffness};
 pub(crate) use stress::{cell_strain, cell_stress, nodal_stress, principal, von_mises};
 pub use structured::{box_mesh, graded, mixed_box, rectangle};
 pub(crate) use support::prescribed;

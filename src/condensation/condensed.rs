@@ -9,13 +9,15 @@ use super::CondensationWork;
 use super::PartMotion;
 use super::carried::Carried;
 use super::condensed_body::CondensedBody;
+use super::engine::{By, Engine, OfInterface};
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::laws::{friction, under_laws};
 use super::load_case::Given;
+use super::mumps::RankMemory;
 use super::rigid_bodies::{floating, part_motions, rigid_parts};
 use super::room::dense_bytes;
-use super::supported::{OfInterface, SupportedBody};
+use super::supported::SupportedBody;
 use crate::body;
 use crate::body::{Body, Dependence};
 use crate::contact::{ContactPair, ContactSurface, RigidBody, RigidMotion};
@@ -79,6 +81,21 @@ impl Condensed {
         pairs: &[ContactPair],
         rigid: &[RigidBody],
     ) -> Result<Self, Error> {
+        Self::with_engine(Engine::Faer, bodies, pairs, rigid)
+    }
+
+    /// The same by an engine of choice.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_rigid`](Self::with_rigid), and what keeps [`Engine::Mumps`] from factorising: no
+    /// [`Ranks`](super::Ranks) that were joined, ranks with another scene, too little memory.
+    pub fn with_engine(
+        engine: Engine,
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
         let start = Instant::now();
         let mut prescribed = Vec::with_capacity(bodies.len());
         for body in bodies {
@@ -86,7 +103,7 @@ impl Condensed {
             prescribed.push(body::prescribed(body)?);
         }
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
-        Self::on_surface(bodies, (pairs, rigid), surface, prescribed, start)
+        Self::on_surface(engine, bodies, (pairs, rigid), surface, prescribed, start)
     }
 
     /// The same bodies on a contact surface that is found already, and maybe changed since.
@@ -104,10 +121,18 @@ impl Condensed {
             .iter()
             .map(body::prescribed)
             .collect::<Result<_, _>>()?;
-        Self::on_surface(bodies, (pairs, &[]), surface, prescribed, start)
+        Self::on_surface(
+            Engine::Faer,
+            bodies,
+            (pairs, &[]),
+            surface,
+            prescribed,
+            start,
+        )
     }
 
     fn on_surface(
+        engine: Engine,
         bodies: &[Body],
         (pairs, rigid): (&[ContactPair], &[RigidBody]),
         surface: ContactSurface,
@@ -122,14 +147,16 @@ impl Condensed {
         for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
             Stage::Assembly.begin();
             let dependence = body::dependence(body)?;
-            let interface = Interface::new(
-                &surface,
-                index,
-                dimension,
-                (&prescribed, dependence.as_ref()),
-            );
+            let held = (&prescribed[..], dependence.as_ref());
+            let (interface, by) = match engine {
+                Engine::Faer => (Interface::new(&surface, index, dimension, held), By::Faer),
+                Engine::Mumps => (
+                    Interface::bordered(&surface, index, dimension, held),
+                    By::Mumps(body, index),
+                ),
+            };
             let supported = supported(body, (prescribed, dependence), &interface);
-            let (body, of_interface) = supported.condense(&interface, &mut work)?;
+            let (body, of_interface) = supported.condense(&interface, by, &mut work)?;
             condensed.push(body);
             interfaces.push(interface);
             of_interfaces.push(of_interface);
@@ -270,6 +297,21 @@ impl Condensed {
         self.work
     }
 
+    /// Memory of every rank for the factors of all bodies; empty where one process factorises.
+    #[must_use]
+    pub fn ranks(&self) -> Vec<RankMemory> {
+        let mut sum = Vec::new();
+        for body in &self.bodies {
+            let memory = body.factored.factor.memory();
+            sum.resize(memory.len(), RankMemory::default());
+            for (sum, memory) in sum.iter_mut().zip(memory) {
+                sum.estimated += memory.estimated;
+                sum.used += memory.used;
+            }
+        }
+        sum
+    }
+
     /// Displacement of every node of every body under the load and a contact reaction
     /// (C6), in metre.
     ///
@@ -278,19 +320,19 @@ impl Condensed {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if reaction or motion do not fit the contact problem.
+    /// [`Error::Length`] if reaction or motion do not fit the contact problem, [`Error::NotAccepted`] where
+    /// ranks do not solve any more.
     pub fn recover(&self, reaction: &[f64], motion: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
         check_length("motion", self.problem.free_modes(), motion.len())?;
         let mut motions = motion;
         let bodies = self.bodies.iter().zip(self.interfaces.iter());
-        Ok(bodies
-            .map(|(body, interface)| {
-                let (own, rest) = motions.split_at(body.grounding().modes.ncols());
-                motions = rest;
-                body.recover(&interface.forces(reaction), own)
-            })
-            .collect())
+        let recovered = bodies.map(|(body, interface)| {
+            let (own, rest) = motions.split_at(body.grounding().modes.ncols());
+            motions = rest;
+            body.recover(&interface.forces(reaction), own)
+        });
+        recovered.collect()
     }
 }
 

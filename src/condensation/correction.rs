@@ -47,7 +47,7 @@ impl Condensed {
     pub fn corrects(&self) -> bool {
         let mut bodies = self.bodies.iter().map(|body| &body.factored);
         self.carried.modes() == 0
-            && bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
+            && bodies.all(|body| body.grounding.modes.ncols() == 0 && body.factor.plain().is_some())
     }
 
     /// The first of (C24): displacements under a reaction in newton, in place, in metre.
@@ -92,9 +92,12 @@ impl FactoredBody {
     }
 
     fn refine(&self, action: &Action, forces: &[f64], displacement: &mut [f64]) {
+        let Some(factor) = self.factor.plain() else {
+            return;
+        };
         let mut rest = self.residual(action, forces, displacement);
-        self.factor.forward(&mut rest);
-        self.factor.backward(&mut rest);
+        factor.forward(&mut rest);
+        factor.backward(&mut rest);
         let change = self.in_space(&rest);
         let unknowns = displacement.iter_mut().zip(&action.prescribed).zip(change);
         for ((u, _), change) in unknowns.filter(|((_, prescribed), _)| prescribed.is_none()) {

@@ -21,6 +21,7 @@
 //! | room for what is dense, and what all will take | `room`, `estimate` |
 //! | laws of the contacts, per area and place (C25) | `laws` |
 //! | the problem of a load step (C13) | `load_step` |
+//! | an engine of choice; factors divided among the processes of an MPI run | `engine`, `mumps` |
 //! | what loads, supports, obstacles and moduli change per unit (C26) | `rates` |
 
 mod border;
@@ -30,6 +31,7 @@ mod condensed;
 mod condensed_body;
 mod correction;
 mod elimination_tree;
+mod engine;
 mod estimate;
 mod factor;
 mod grounding;
@@ -38,6 +40,7 @@ mod laws;
 mod load_case;
 mod load_step;
 mod local_axes;
+mod mumps;
 mod ordering;
 mod rates;
 mod rigid_bodies;
@@ -51,9 +54,11 @@ mod work;
 
 pub use condensed::Condensed;
 pub(crate) use condensed_body::CondensedBody;
+pub use engine::Engine;
 pub use estimate::Estimate;
 pub(crate) use estimate::estimate;
 pub(crate) use laws::friction;
+pub use mumps::{RankMemory, Ranks};
 pub(crate) use rates::BodyRate;
 pub(crate) use rigid_bodies::{PartMotion, RigidBodies};
 pub(crate) use room::dense_bytes;

@@ -9,7 +9,7 @@
 //! G. Karypis & V. Kumar, A fast and high quality multilevel scheme for partitioning
 //! irregular graphs, SIAM J. Sci. Comput. 20 (1998) 359–392.
 //!
-//! The only file that calls C.
+//! The only file that calls C, but for `mumps/face`.
 #![allow(unsafe_code)]
 
 use std::sync::{Mutex, PoisonError};

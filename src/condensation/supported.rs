@@ -2,20 +2,20 @@
 
 use std::time::Instant;
 
-use faer::Mat;
 use sprs::CsMat;
 
 use super::CondensationWork;
 use super::condensed_body::{CondensedBody, FactoredBody};
+use super::engine::{BodyFactor, By, OfInterface};
 use super::factor::{Breakdown, Factor, count};
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::load_case::Given;
 use super::local_axes::{Frames, InterfaceNode};
+use super::mumps::{Divided, Refusal, Whole};
 use super::ordering::{Ordering, Role};
 use crate::body::Dependence;
 use crate::error::Error;
-use crate::problem::Operator;
 use crate::stage::Stage;
 
 /// The assembled body, before it is condensed.
@@ -41,29 +41,12 @@ pub(super) struct Counted {
     pub(super) operations: f64,
 }
 
-/// What a body is for its interface, as the factor gives it.
-pub(super) enum OfInterface {
-    /// `L_cc` of (C2).
-    Factor(Mat<f64>),
-    /// G of (C17).
-    Compliance(Mat<f64>),
-}
-
-impl OfInterface {
-    /// G; it costs a triangular inverse and half a product where there is a factor.
-    pub(super) fn operator(self) -> Result<Operator, Error> {
-        match self {
-            Self::Factor(factor) => Ok(Operator::from_factor(factor)),
-            Self::Compliance(compliance) => Operator::from_bodies(compliance),
-        }
-    }
-}
-
 impl SupportedBody<'_> {
     /// Orders, factorises and condenses onto the interface.
     pub(super) fn condense(
         self,
         interface: &Interface,
+        by: By<'_>,
         work: &mut CondensationWork,
     ) -> Result<(CondensedBody, OfInterface), Error> {
         Stage::Ordering.begin();
@@ -81,10 +64,23 @@ impl SupportedBody<'_> {
         Stage::Factorisation.begin();
         let start = Instant::now();
         let grounded = self.grounding.ground(stiffness);
-        let factor = Factor::new(&grounded, &frames, &ordering, &interface.border)
-            .map_err(|breakdown| self.explain(breakdown))?;
+        let mut factor = match by {
+            By::Faer => Factor::new(&grounded, &frames, &ordering, &interface.border)
+                .map(BodyFactor::Faer)
+                .map_err(|breakdown| self.explain(breakdown))?,
+            By::Mumps(body, index) => Divided::new(&Whole {
+                body,
+                index,
+                stiffness: &grounded,
+                springs: &self.grounding.springs,
+                ordering: &ordering,
+                border: &interface.border,
+            })
+            .map(BodyFactor::Mumps)
+            .map_err(|refusal| self.refuse(refusal))?,
+        };
         work.factorisation_seconds += start.elapsed().as_secs_f64();
-        work.numeric_seconds += factor.numeric_seconds;
+        work.numeric_seconds += factor.numeric_seconds();
         work.factorisations += 1;
         work.unknowns += ordering.unknowns();
         work.condensed_unknowns += factor.contact_unknowns();
@@ -92,10 +88,7 @@ impl SupportedBody<'_> {
 
         Stage::Condensation.begin();
         let start = Instant::now();
-        let of_interface = match factor.is_bordered() {
-            true => OfInterface::Compliance(factor.border_compliance()),
-            false => OfInterface::Factor(factor.trailing_block()),
-        };
+        let of_interface = factor.of_interface();
         let factored = FactoredBody {
             stiffness: self.stiffness,
             dependence: self.dependence,
@@ -173,13 +166,33 @@ impl SupportedBody<'_> {
                 dof,
                 pivot,
                 diagonal,
-            } => Error::NotPositiveDefinite {
-                body: self.name.to_owned(),
-                node: dof / self.dimension,
-                position: self.nodes[dof / self.dimension],
-                pivot,
+            } => self.moves(dof, pivot, diagonal),
+        }
+    }
+
+    fn refuse(&self, refusal: Refusal) -> Error {
+        match refusal {
+            Refusal::TooLarge => self.too_large("factorisation"),
+            Refusal::Moves {
+                dof,
+                resistance,
                 diagonal,
+            } => self.moves(dof, resistance, diagonal),
+            Refusal::Says(found) => Error::NotAccepted {
+                place: self.name.to_owned(),
+                found,
+                accepted: "a factorisation by MUMPS on all ranks".to_owned(),
             },
+        }
+    }
+
+    fn moves(&self, dof: usize, pivot: f64, diagonal: f64) -> Error {
+        Error::NotPositiveDefinite {
+            body: self.name.to_owned(),
+            node: dof / self.dimension,
+            position: self.nodes[dof / self.dimension],
+            pivot,
+            diagonal,
         }
     }
 }

@@ -86,7 +86,8 @@ impl Setup {
             notes,
             ..
         } = mechanics;
-        let condensed = Condensed::with_rigid(&bodies, &pairs, &rigid_bodies)?;
+        let engine = scene.settings.engine;
+        let condensed = Condensed::with_engine(engine, &bodies, &pairs, &rigid_bodies)?;
         let geometry = SceneGeometry::new(&bodies, &pairs, condensed.surface())?;
         let acting = Acting {
             openings: pairs.iter().map(|pair| pair.gap).collect(),
@@ -353,6 +354,7 @@ impl Solution {
                 condensation: work.condensation_seconds,
                 recovery: self.recovery_seconds,
             },
+            ranks: &condensed.ranks(),
             origins: self.step.as_ref().map_or(&sides, |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
             notes: &[],

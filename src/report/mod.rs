@@ -21,7 +21,7 @@
 //! | `found` | of `dpana find`: the parameter, its value, the total there and its derivative |
 //! | `sensitivity` | with `--sensitivity`: derivatives of the totals with respect to friction, gaps, loads, supports, obstacles, moduli |
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
-//! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
+//! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage, memory per rank; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
 //! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
@@ -116,11 +116,11 @@ pub use totals::{PairTotals, ReportedCoupling, Rounded, Totals};
 pub use trust::{Continuity, Trust};
 #[cfg(feature = "cli")]
 pub(crate) use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
-pub use work::{ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
+pub use work::{ReportedRank, ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
 
 use crate::alternation::Outcome;
 use crate::body::Body;
-use crate::condensation::PartMotion;
+use crate::condensation::{PartMotion, RankMemory};
 use crate::contact::{ContactPair, ContactSurface};
 use crate::error::{Error, check_length};
 use crate::problem::ContactProblem;
@@ -278,6 +278,8 @@ pub struct ReportParts<'a> {
     pub fits: &'a [kkt::PairFit],
     /// What the stages around the outer loop took.
     pub stages: &'a StageWork,
+    /// Memory of every rank for the factors; empty where one process factorises.
+    pub ranks: &'a [RankMemory],
     /// Relative displacement of every contact, in global axes, from which its slip counts, in
     /// metre; empty where it counts from the bodies before loading.
     pub origins: &'a [[f64; 3]],

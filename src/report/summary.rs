@@ -368,6 +368,9 @@ fn work(text: &mut String, report: &Report) -> std::fmt::Result {
         counted(work.cone_iterations, "cone iteration"),
         counted(work.newton_steps, "Newton step"),
     )?;
+    if let Some(words) = work.ranks_in_words() {
+        writeln!(text, "ranks           {words}")?;
+    }
     let stages = work.seconds.by_stage();
     let spent: Vec<String> = stages
         .iter()

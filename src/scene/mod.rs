@@ -49,6 +49,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::alternation::{Interrupt, Settings};
 use crate::body::Body;
+use crate::condensation::Engine;
 use crate::contact::{ContactPair, RigidBody};
 use crate::error::Error;
 
@@ -158,6 +159,9 @@ pub struct SceneSettings {
     /// A flag that ends the solve once it is raised, with the best state; not part of a scene's file.
     #[serde(skip)]
     pub interrupt: Option<Interrupt>,
+    /// What factorises the bodies; not part of a scene's file.
+    #[serde(skip)]
+    pub engine: Engine,
 }
 
 /// A scene in the terms of mechanics: groups resolved, facets outward, values checked.

@@ -90,6 +90,7 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         departure: none,
         fits: &[],
         stages: &StageWork::default(),
+        ranks: &[],
         origins: &[],
         step: None,
         notes: &[],

@@ -215,6 +215,7 @@ impl Row {
             departure: Worst::default(),
             fits: &[],
             stages: &STAGES,
+            ranks: &[],
             origins: &[],
             step: None,
             notes: &[],

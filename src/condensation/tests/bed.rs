@@ -7,6 +7,7 @@ use sprs::CsMat;
 use super::lattice::Lattice;
 use crate::condensation::CondensationWork;
 use crate::condensation::condensed_body::CondensedBody;
+use crate::condensation::engine::By;
 use crate::condensation::grounding::Grounding;
 use crate::condensation::interface::Interface;
 use crate::condensation::load_case::Given;
@@ -130,7 +131,7 @@ impl Bed {
             grounding: Grounding::none(),
         };
         let mut work = CondensationWork::default();
-        let (body, of_interface) = supported.condense(&interface, &mut work)?;
+        let (body, of_interface) = supported.condense(&interface, By::Faer, &mut work)?;
 
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
         let (count, unknowns) = (tangents.len(), body.action.free_displacement.len());

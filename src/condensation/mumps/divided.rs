@@ -1,0 +1,394 @@
+//! The factor of a body divided among ranks, from rank 0.
+//!
+//! ```text
+//!        ordinary  seen
+//!       [  K'       Bᵀ  ]      Schur complement of the last rows: −G
+//!       [  B        0   ]      f reduced onto them: −v̂;  expanded from −t: u = K'⁻¹ (f + Bᵀ t)
+//! ```
+//!
+//! The border of (C17), whatever the contacts see; K' is the sum of what the ranks assemble. MUMPS says nothing of
+//! a singular matrix, and counts negative pivots of an indefinite one: a probe tells. Solved for a load without
+//! equilibrium, a body that can move without force leaves most of the load, a sound one 1e-15 of it.
+
+use std::sync::{Mutex, PoisonError};
+use std::time::Instant;
+
+use faer::Mat;
+use sprs::CsMat;
+
+use super::entries::Entries;
+use super::factorisation::{RankMemory, factorise, words};
+use super::mark;
+use super::ranks::{Request, with};
+use crate::body::Body;
+use crate::condensation::columns::BorderRow;
+use crate::condensation::ordering::Ordering;
+
+/// Part of the probe's load that is left where the body can move without force.
+const SINGULAR: f64 = 1e-2;
+
+/// Ways to solve, as ICNTL(26) numbers them.
+#[derive(Clone, Copy)]
+enum Way {
+    Plainly,
+    Reduce,
+    Expand,
+}
+
+/// Why there is no factor.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Refusal {
+    /// A motion without force, most at a degree of freedom.
+    Moves {
+        /// Degree of freedom that moves most.
+        dof: usize,
+        /// What resists it there, and the diagonal entry of K', in N/m.
+        resistance: f64,
+        diagonal: f64,
+    },
+    /// More unknowns than MUMPS counts.
+    TooLarge,
+    /// What MUMPS or a rank says.
+    Says(String),
+}
+
+/// A body to be factorised.
+pub(crate) struct Whole<'a> {
+    /// As every rank has it.
+    pub(crate) body: &'a Body,
+    /// Its number in the scene.
+    pub(crate) index: usize,
+    /// K', grounded.
+    pub(crate) stiffness: &'a CsMat<f64>,
+    /// Degrees of freedom whose diagonal has a spring in it, as stiff as the rest (C12).
+    pub(crate) springs: &'a [usize],
+    pub(crate) ordering: &'a Ordering,
+    pub(crate) border: &'a [BorderRow],
+}
+
+/// A factor whose parts the ranks hold.
+#[derive(Debug)]
+pub(crate) struct Divided {
+    number: usize,
+    border: usize,
+    entries: usize,
+    seconds: f64,
+    memory: Vec<RankMemory>,
+    compliance: Mat<f64>,
+    /// Why a solve failed.
+    failure: Mutex<Option<String>>,
+}
+
+impl Divided {
+    /// Factorises, and forms G of (C17) in m/N.
+    pub(crate) fn new(whole: &Whole<'_>) -> Result<Self, Refusal> {
+        let start = Instant::now();
+        let border = whole.border.len();
+        let size = whole.ordering.unknowns() + border;
+        let fits = i32::try_from(size).is_ok() && i32::try_from(whole.stiffness.rows()).is_ok();
+        if !fits || size == 0 {
+            return Err(Refusal::TooLarge);
+        }
+        let mut complement = vec![0.0; border * border];
+        let done = with(|world| {
+            let [high, low] = mark(whole.body);
+            let unknowns = whole.ordering.unknowns() as i32;
+            let of = [whole.index as i32, unknowns, border as i32, high, low];
+            Request::Factorise(of).ask(world);
+            let mut dof: Vec<i32> = whole.ordering.dof.iter().map(|&dof| dof as i32).collect();
+            world.tell(&mut dof);
+            let part = whole.part(world.count());
+            let factorised = factorise(world, part, (size, border), &mut complement)?;
+            let number = factorised.number;
+            let (negative, entries) = (world.said(number, 12), world.said(number, 29));
+            Ok((factorised, negative, entries))
+        });
+        let (factorised, negative, entries) = done
+            .unwrap_or_else(|| Err("the ranks have left".to_owned()))
+            .map_err(Refusal::Says)?;
+        let factor = Self {
+            number: factorised.number,
+            border,
+            entries: counted(entries),
+            seconds: start.elapsed().as_secs_f64(),
+            memory: factorised.memory,
+            compliance: compliance(&complement, border),
+            failure: Mutex::new(None),
+        };
+        factor.probe(whole, negative)?;
+        Ok(factor)
+    }
+
+    /// Stored entries of L.
+    pub(crate) fn entries(&self) -> usize {
+        self.entries
+    }
+
+    /// Number of rows of the border.
+    pub(crate) fn contact_unknowns(&self) -> usize {
+        self.border
+    }
+
+    /// Wall time of assembly, analysis and factorisation, in second.
+    pub(crate) fn numeric_seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// G of (C17) in m/N, given away.
+    pub(crate) fn take_compliance(&mut self) -> Mat<f64> {
+        std::mem::replace(&mut self.compliance, Mat::new())
+    }
+
+    /// Per rank.
+    pub(crate) fn memory(&self) -> &[RankMemory] {
+        &self.memory
+    }
+
+    /// Why a solve failed, if one did: what it gave is not a number.
+    pub(crate) fn failure(&self) -> Option<String> {
+        let failure = self.failure.lock();
+        failure.unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// v̂ of (C17) in metre, of a force in newton.
+    pub(crate) fn free_displacement(&self, force: &[f64]) -> Vec<f64> {
+        let mut reduced = vec![0.0; self.border];
+        if self.border > 0 {
+            self.solve(Way::Reduce, &mut self.bordered(force), &mut reduced);
+        }
+        reduced.iter().map(|u| -u).collect()
+    }
+
+    /// Displacement under a force per unknown and one per row of the border, in metre.
+    pub(crate) fn displacement_under(&self, force: &[f64], forces: &[f64]) -> Vec<f64> {
+        let mut x = self.bordered(force);
+        if self.border == 0 {
+            self.solve(Way::Plainly, &mut x, &mut []);
+            return x;
+        }
+        let mut reduced = vec![0.0; self.border];
+        self.solve(Way::Reduce, &mut x.clone(), &mut reduced);
+        reduced.copy_from_slice(forces);
+        reduced.iter_mut().for_each(|t| *t = -*t);
+        self.solve(Way::Expand, &mut x, &mut reduced);
+        x.truncate(force.len());
+        x
+    }
+
+    fn bordered(&self, force: &[f64]) -> Vec<f64> {
+        let mut bordered = force.to_vec();
+        bordered.resize(force.len() + self.border, 0.0);
+        bordered
+    }
+
+    fn solve(&self, way: Way, force: &mut [f64], reduced: &mut [f64]) {
+        let done = with(|world| {
+            let way = way as i32;
+            Request::Solve([self.number as i32, way]).ask(world);
+            match world.solve(self.number, way, force, reduced) {
+                0.. => Ok(()),
+                code => Err(words(world, self.number, code)),
+            }
+        });
+        if let Err(reason) = done.unwrap_or_else(|| Err("the ranks have left".to_owned())) {
+            force.fill(f64::NAN);
+            reduced.fill(f64::NAN);
+            let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+            *failure = Some(reason);
+        }
+    }
+
+    /// Refuses a body that moves without force, or against it.
+    fn probe(&self, whole: &Whole<'_>, negative: i32) -> Result<(), Refusal> {
+        let ordering = whole.ordering;
+        let load = |at: usize| ((at * 104_729 + 7) % 1009) as f64 / 504.5 - 1.0;
+        let load: Vec<f64> = (0..ordering.unknowns()).map(load).collect();
+        let moved = self.displacement_under(&load, &vec![0.0; self.border]);
+        if let Some(reason) = self.failure() {
+            return Err(Refusal::Says(reason));
+        }
+        let mut displacement = vec![0.0; whole.stiffness.rows()];
+        for (&dof, u) in ordering.dof.iter().zip(&moved) {
+            displacement[dof] = *u;
+        }
+        let (mut left, mut all, mut work, mut most) = (0.0, 0.0, 0.0, 0);
+        for (at, &dof) in ordering.dof.iter().enumerate() {
+            let row = whole.stiffness.outer_view(dof);
+            let terms = row.iter().flat_map(|row| row.iter());
+            let force: f64 = terms.map(|(other, k)| k * displacement[other]).sum();
+            left += (load[at] - force).powi(2);
+            all += load[at].powi(2);
+            work += load[at] * moved[at];
+            most = if moved[at].abs() > moved[most].abs() {
+                at
+            } else {
+                most
+            };
+        }
+        // Turned round, so that a NaN is refused.
+        let sound = negative == 0 && left <= SINGULAR.powi(2) * all;
+        match sound {
+            true => Ok(()),
+            false => Err(Refusal::Moves {
+                dof: ordering.dof[most],
+                resistance: work / moved[most].powi(2),
+                diagonal: whole.diagonal(ordering.dof[most]),
+            }),
+        }
+    }
+}
+
+impl Drop for Divided {
+    fn drop(&mut self) {
+        with(|world| {
+            Request::Free(self.number as i32).ask(world);
+            world.free(self.number);
+        });
+    }
+}
+
+impl Whole<'_> {
+    /// The entries of rank 0: its cells, the springs, the border.
+    fn part(&self, ranks: usize) -> Result<Entries, String> {
+        let mut part = match ranks {
+            // The whole has its springs in it.
+            1 => Entries::of(self.stiffness, self.ordering),
+            _ => {
+                let part = Entries::of_cells(self.body, (0, ranks), self.ordering);
+                let mut part = part.map_err(|error| error.to_string())?;
+                for &dof in self.springs {
+                    part.spring(self.ordering.position[dof], 0.5 * self.diagonal(dof));
+                }
+                part
+            }
+        };
+        part.border(self.ordering, self.border);
+        Ok(part)
+    }
+
+    fn diagonal(&self, dof: usize) -> f64 {
+        self.stiffness.get(dof, dof).copied().unwrap_or_default()
+    }
+}
+
+/// G from −G, given as its lower triangle by rows; both triangles are filled.
+fn compliance(complement: &[f64], size: usize) -> Mat<f64> {
+    Mat::from_fn(size, size, |i, j| -complement[i.max(j) * size + i.min(j)])
+}
+
+/// A number that MUMPS gives in millions where it is large.
+fn counted(number: i32) -> usize {
+    match number {
+        0.. => number as usize,
+        millions => 1_000_000 * millions.unsigned_abs() as usize,
+    }
+}
+
+#[cfg(all(test, mumps))]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::body;
+    use crate::body::CellKind;
+    use crate::body::tests::samples::distorted;
+    use crate::condensation::mumps::Ranks;
+    use crate::condensation::ordering::HELD;
+    use faer::linalg::solvers::Solve;
+
+    /// The first dofs held, the others in their order.
+    fn ordering(size: usize, held: usize) -> Ordering {
+        let position = (0..size).map(|dof| dof.checked_sub(held).unwrap_or(HELD));
+        Ordering {
+            position: position.collect(),
+            dof: (held..size).collect(),
+            contact_unknowns: 0,
+        }
+    }
+
+    fn whole<'a>(
+        body: &'a Body,
+        stiffness: &'a CsMat<f64>,
+        ordering: &'a Ordering,
+        border: &'a [BorderRow],
+    ) -> Whole<'a> {
+        Whole {
+            body,
+            index: 0,
+            stiffness,
+            springs: &[],
+            ordering,
+            border,
+        }
+    }
+
+    fn close(found: &[f64], expected: impl Fn(usize) -> f64) {
+        let largest = (0..found.len()).fold(0.0_f64, |most, i| most.max(expected(i).abs()));
+        for (i, found) in found.iter().enumerate() {
+            assert!((found - expected(i)).abs() <= 1e-12 * largest, "{i}");
+        }
+    }
+
+    // All in one, for MPI begins once in a process.
+    #[test]
+    fn a_sound_body_is_right_and_one_that_is_not_is_refused() {
+        let ranks = Ranks::join().unwrap();
+        let body = distorted(CellKind::Hex8);
+        let stiffness = body::stiffness(&body);
+        let (size, held) = (stiffness.rows(), 12);
+        let held_body = ordering(size, held);
+        let rows: [BorderRow; 3] = [
+            vec![(20, 1.0)],
+            vec![(25, 0.6), (31, -0.4)],
+            vec![(20, 0.5), (40, 2.0)],
+        ];
+        let sound = whole(&body, &stiffness, &held_body, &rows);
+        let mut factor = Divided::new(&sound).unwrap();
+
+        let free = size - held;
+        let entry = |i, j| stiffness.get(i, j).copied().unwrap_or_default();
+        let dense = Mat::from_fn(free, free, |i, j| entry(i + held, j + held)).partial_piv_lu();
+        let mut seen = Mat::<f64>::zeros(free, rows.len());
+        for (k, row) in rows.iter().enumerate() {
+            row.iter().for_each(|&(dof, b)| seen[(dof - held, k)] += b);
+        }
+        let expected = seen.transpose() * dense.solve(&seen);
+        let found = factor.take_compliance();
+        for k in 0..rows.len() {
+            close(found.col_as_slice(k), |i| expected[(i, k)]);
+        }
+        let force: Vec<f64> = (0..free).map(|i| (i as f64).sin()).collect();
+        let forces = [3.0, -1.0, 0.5];
+        let moved = dense.solve(Mat::from_fn(free, 1, |i, _| force[i]));
+        let free_displacement = seen.transpose() * &moved;
+        close(&factor.free_displacement(&force), |k| {
+            free_displacement[(k, 0)]
+        });
+        let pushed = &moved + dense.solve(&seen * Mat::from_fn(3, 1, |k, _| forces[k]));
+        close(&factor.displacement_under(&force, &forces), |i| {
+            pushed[(i, 0)]
+        });
+        let unseen = Divided::new(&whole(&body, &stiffness, &held_body, &[])).unwrap();
+        close(&unseen.displacement_under(&force, &[]), |i| moved[(i, 0)]);
+
+        let nothing_held = ordering(size, 0);
+        let floating = Divided::new(&whole(&body, &stiffness, &nothing_held, &rows));
+        assert!(
+            matches!(floating, Err(Refusal::Moves { .. })),
+            "{floating:?}"
+        );
+        let mut turned = stiffness.clone();
+        *turned.get_mut(50, 50).unwrap() *= -1.0;
+        let indefinite = Divided::new(&whole(&body, &turned, &held_body, &rows));
+        assert!(
+            matches!(indefinite, Err(Refusal::Moves { .. })),
+            "{indefinite:?}"
+        );
+
+        drop(ranks);
+        assert!(factor.failure().is_none());
+        assert!(factor.free_displacement(&force).iter().all(|u| u.is_nan()));
+        assert!(factor.failure().unwrap().contains("left"));
+        let late = Divided::new(&sound);
+        assert!(matches!(late, Err(Refusal::Says(_))), "{late:?}");
+    }
+}
