@@ -182,11 +182,11 @@ fn the_same_as_without_ranks(case: &str, count: usize) {
     let far = far / expected.problem().compliance().norm_max();
     let free = |of: &Condensed| of.problem().free_displacement().to_vec();
     let moved = apart(&free(&expected), &free(&found));
-    // Near incompressibility costs K two digits of its condition.
-    let bound = if case.starts_with("soft") {
-        1e-10
-    } else {
-        1e-12
+    // Either factor errs by ε times the condition of K: 1e5 on soft ground, 1e6 near incompressibility.
+    let bound = match case {
+        "foundation.json" => 1e-11,
+        "soft tetrahedra" => 1e-10,
+        _ => 1e-12,
     };
     assert!(
         far <= bound && moved <= bound,

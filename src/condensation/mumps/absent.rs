@@ -8,11 +8,11 @@ pub(super) enum World {}
 
 impl World {
     pub(super) fn join() -> Result<Self, String> {
-        let built = match cfg!(feature = "mumps") {
-            true => "built with the feature `mumps` where MUMPS was not installed",
-            false => "built without the feature `mumps`",
-        };
-        Err(format!("`mumps`, and this program was {built},"))
+        Err(match cfg!(feature = "mumps") {
+            true => "`mumps` in a program built where MUMPS was not installed",
+            false => "`mumps` in a program built without the feature `mumps`",
+        }
+        .to_owned())
     }
 
     pub(super) fn rank(&self) -> usize {
@@ -60,6 +60,10 @@ impl World {
     }
 
     pub(super) fn factorise(&mut self, _: usize, _: i32, _: &mut [f64]) -> i32 {
+        match *self {}
+    }
+
+    pub(super) fn entries(&mut self, _: usize) -> &mut Entries {
         match *self {}
     }
 

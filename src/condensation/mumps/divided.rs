@@ -7,8 +7,9 @@
 //! ```
 //!
 //! The border of (C17), whatever the contacts see; K' is the sum of what the ranks assemble. MUMPS says nothing of
-//! a singular matrix, and counts negative pivots of an indefinite one: a probe tells. Solved for a load without
-//! equilibrium, a body that can move without force leaves most of the load, a sound one 1e-15 of it.
+//! a matrix that is singular but for round-off, and counts negative pivots of an indefinite one: a probe tells.
+//! Solved for a load without equilibrium, a body that can move without force leaves much of the load, a sound one
+//! ε times its condition of it.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -24,7 +25,7 @@ use crate::body::Body;
 use crate::condensation::columns::BorderRow;
 use crate::condensation::ordering::Ordering;
 
-/// Part of the probe's load that is left where the body can move without force.
+/// Part of the probe's load that is left at most where the body cannot move without force.
 const SINGULAR: f64 = 1e-2;
 
 /// Ways to solve, as ICNTL(26) numbers them.
@@ -100,22 +101,23 @@ impl Divided {
             let part = whole.part(world.count());
             let factorised = factorise(world, part, (size, border), &mut complement)?;
             let number = factorised.number;
-            let (negative, entries) = (world.said(number, 12), world.said(number, 29));
-            Ok((factorised, negative, entries))
+            let positive = world.said(number, 12) == 0 && !factorised.singular;
+            let entries = counted(world.said(number, 29));
+            Ok((factorised, positive, entries))
         });
-        let (factorised, negative, entries) = done
+        let (factorised, positive, entries) = done
             .unwrap_or_else(|| Err("the ranks have left".to_owned()))
             .map_err(Refusal::Says)?;
         let factor = Self {
             number: factorised.number,
             border,
-            entries: counted(entries),
+            entries,
             seconds: start.elapsed().as_secs_f64(),
             memory: factorised.memory,
             compliance: compliance(&complement, border),
             failure: Mutex::new(None),
         };
-        factor.probe(whole, negative)?;
+        factor.probe(whole, positive)?;
         Ok(factor)
     }
 
@@ -198,43 +200,33 @@ impl Divided {
         }
     }
 
-    /// Refuses a body that moves without force, or against it.
-    fn probe(&self, whole: &Whole<'_>, negative: i32) -> Result<(), Refusal> {
+    /// Refuses a body that moves without force, or against it: solved for some load, and for the motion that this
+    /// made as the next, which is the softest that there is.
+    fn probe(&self, whole: &Whole<'_>, positive: bool) -> Result<(), Refusal> {
         let ordering = whole.ordering;
-        let load = |at: usize| ((at * 104_729 + 7) % 1009) as f64 / 504.5 - 1.0;
-        let load: Vec<f64> = (0..ordering.unknowns()).map(load).collect();
-        let moved = self.displacement_under(&load, &vec![0.0; self.border]);
+        let some = |at: usize| ((at * 104_729 + 7) % 1009) as f64 / 504.5 - 1.0;
+        let some: Vec<f64> = (0..ordering.unknowns()).map(some).collect();
+        let none = vec![0.0; self.border];
+        let mut load = self.displacement_under(&some, &none);
+        let largest = load.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+        load.iter_mut().for_each(|u| *u /= largest);
+        let moved = self.displacement_under(&load, &none);
         if let Some(reason) = self.failure() {
             return Err(Refusal::Says(reason));
         }
-        let mut displacement = vec![0.0; whole.stiffness.rows()];
-        for (&dof, u) in ordering.dof.iter().zip(&moved) {
-            displacement[dof] = *u;
+        let left = whole.left(&load, &moved);
+        // A NaN is no sound body.
+        if positive && left <= SINGULAR {
+            return Ok(());
         }
-        let (mut left, mut all, mut work, mut most) = (0.0, 0.0, 0.0, 0);
-        for (at, &dof) in ordering.dof.iter().enumerate() {
-            let row = whole.stiffness.outer_view(dof);
-            let terms = row.iter().flat_map(|row| row.iter());
-            let force: f64 = terms.map(|(other, k)| k * displacement[other]).sum();
-            left += (load[at] - force).powi(2);
-            all += load[at].powi(2);
-            work += load[at] * moved[at];
-            most = if moved[at].abs() > moved[most].abs() {
-                at
-            } else {
-                most
-            };
-        }
-        // Turned round, so that a NaN is refused.
-        let sound = negative == 0 && left <= SINGULAR.powi(2) * all;
-        match sound {
-            true => Ok(()),
-            false => Err(Refusal::Moves {
-                dof: ordering.dof[most],
-                resistance: work / moved[most].powi(2),
-                diagonal: whole.diagonal(ordering.dof[most]),
-            }),
-        }
+        let further = |a: &usize, b: &usize| moved[*a].abs().total_cmp(&moved[*b].abs());
+        let most = (0..moved.len()).max_by(further).unwrap_or_default();
+        let work: f64 = load.iter().zip(&moved).map(|(f, u)| f * u).sum();
+        Err(Refusal::Moves {
+            dof: ordering.dof[most],
+            resistance: work / moved[most].powi(2),
+            diagonal: whole.diagonal(ordering.dof[most]),
+        })
     }
 }
 
@@ -264,6 +256,23 @@ impl Whole<'_> {
         };
         part.border(self.ordering, self.border);
         Ok(part)
+    }
+
+    /// `‖f − K' u‖ / ‖f‖`, both in the order of elimination.
+    fn left(&self, load: &[f64], moved: &[f64]) -> f64 {
+        let mut displacement = vec![0.0; self.stiffness.rows()];
+        for (&dof, u) in self.ordering.dof.iter().zip(moved) {
+            displacement[dof] = *u;
+        }
+        let (mut left, mut all) = (0.0, 0.0);
+        for (&dof, load) in self.ordering.dof.iter().zip(load) {
+            let row = self.stiffness.outer_view(dof);
+            let terms = row.iter().flat_map(|row| row.iter());
+            let force: f64 = terms.map(|(other, k)| k * displacement[other]).sum();
+            left += (load - force).powi(2);
+            all += load.powi(2);
+        }
+        f64::sqrt(left / all)
     }
 
     fn diagonal(&self, dof: usize) -> f64 {

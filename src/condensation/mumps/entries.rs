@@ -63,6 +63,16 @@ impl Entries {
         self.push(position, position, stiffness);
     }
 
+    /// Makes every diagonal entry larger by a part of it.
+    pub(super) fn shift(&mut self, part: f64) {
+        let places = self.rows.iter().zip(&self.columns);
+        for ((row, column), value) in places.zip(&mut self.values) {
+            if row == column {
+                *value *= 1.0 + part;
+            }
+        }
+    }
+
     fn push(&mut self, row: usize, column: usize, value: f64) {
         // The numbers of unknowns fit: see `Divided::new`.
         self.rows.push(row as i32 + 1);

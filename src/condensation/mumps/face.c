@@ -142,10 +142,12 @@ int dpana_mumps_analyse(int number, int size, int schur, long long entries, int 
     return mumps->infog[0];
 }
 
-/* All: factorisation, with so many percent of room beyond the estimate; `schur` on rank 0. INFOG(1). */
-int dpana_mumps_factorise(int number, int room, double *schur) {
+/* All: factorisation of the values given now, with so many percent of room beyond the estimate; `schur` on
+ * rank 0. INFOG(1). */
+int dpana_mumps_factorise(int number, int room, double *values, double *schur) {
     DMUMPS_STRUC_C *mumps = &table[number]->mumps;
     mumps->icntl[13] = room;
+    mumps->a_loc = values;
     mumps->schur = schur;
     run(table[number], 2);
     mumps->schur = NULL;

@@ -29,7 +29,12 @@ unsafe extern "C" {
         columns: *mut c_int,
         values: *mut c_double,
     ) -> c_int;
-    fn dpana_mumps_factorise(number: c_int, room: c_int, schur: *mut c_double) -> c_int;
+    fn dpana_mumps_factorise(
+        number: c_int,
+        room: c_int,
+        values: *mut c_double,
+        schur: *mut c_double,
+    ) -> c_int;
     fn dpana_mumps_solve(
         number: c_int,
         way: c_int,
@@ -180,8 +185,15 @@ impl World {
         let leads = self.rank == 0;
         let (number, instance) = self.instance(number);
         assert!(!leads || complement.len() == instance.schur * instance.schur);
-        // SAFETY: the instance is analysed; `complement` is as large as MUMPS fills it and is not kept.
-        unsafe { dpana_mumps_factorise(number, room, complement.as_mut_ptr()) }
+        let (_, _, values) = instance.entries.parts();
+        // SAFETY: the instance is analysed, with as many values; `complement` is as large as MUMPS fills it. The
+        // values belong to the world, as in `analyse`; the complement is not kept.
+        unsafe { dpana_mumps_factorise(number, room, values.as_mut_ptr(), complement.as_mut_ptr()) }
+    }
+
+    /// Changes the entries before the next factorisation.
+    pub(super) fn entries(&mut self, number: usize) -> &mut Entries {
+        &mut self.instance(number).1.entries
     }
 
     /// After `factorise`; on rank 0 `force` has the size of the matrix and `reduced` of its Schur complement.

@@ -7,6 +7,9 @@ use crate::stage;
 /// Room beyond its estimate that MUMPS gets, in percent, each after the one before did not suffice.
 const ROOM: [i32; 3] = [30, 100, 400];
 
+/// Part of its diagonal that is added to a matrix with a pivot of zero, so that it shows which motion has none.
+const SHIFT: f64 = 1e-10;
+
 /// Bytes of a failure in words that get from rank to rank.
 const TEXT: usize = 1024;
 
@@ -26,6 +29,8 @@ pub(super) struct Factorised {
     pub(super) number: usize,
     /// On rank 0, per rank.
     pub(super) memory: Vec<RankMemory>,
+    /// A pivot was zero: what is factorised is the shifted matrix.
+    pub(super) singular: bool,
 }
 
 /// Factorises the sum of the entries of all ranks, or says on all of them why not. `complement` is the Schur
@@ -39,18 +44,22 @@ pub(super) fn factorise(
     let entries = agreed(world, entries)?;
     let begun = world.begin().ok_or_else(|| "no memory".to_owned());
     let number = agreed(world, begun)?;
-    let done = analysed(world, number, (size, schur), entries)
-        .and_then(|estimated| eliminated(world, number, estimated, complement));
+    let done = analysed(world, number, (size, schur), entries).and_then(|estimated| {
+        let singular = eliminated(world, number, complement)?;
+        let bytes = 1e6 * f64::from(world.said_here(number, 22));
+        let used = world.gather(bytes);
+        let of_rank = |(estimated, used)| RankMemory { estimated, used };
+        Ok(Factorised {
+            number,
+            memory: estimated.into_iter().zip(used).map(of_rank).collect(),
+            singular,
+        })
+    });
     match done {
-        Ok(memory) => {
-            world.forget(number);
-            Ok(Factorised { number, memory })
-        }
-        Err(reason) => {
-            world.free(number);
-            Err(reason)
-        }
+        Ok(_) => world.forget(number),
+        Err(_) => world.free(number),
     }
+    done
 }
 
 /// Estimated memory per rank on rank 0, in bytes.
@@ -79,26 +88,23 @@ fn analysed(
     Ok(estimated)
 }
 
-fn eliminated(
-    world: &mut World,
-    number: usize,
-    estimated: Vec<f64>,
-    complement: &mut [f64],
-) -> Result<Vec<RankMemory>, String> {
-    let mut code = 0;
-    for room in ROOM {
-        code = world.factorise(number, room, complement);
-        if !matches!(code, -8 | -9) {
-            break;
+/// Whether a pivot was zero.
+fn eliminated(world: &mut World, number: usize, complement: &mut [f64]) -> Result<bool, String> {
+    let (mut room, mut singular) = (ROOM.iter(), false);
+    let mut percent = room.next();
+    while let Some(&enough) = percent {
+        match world.factorise(number, enough, complement) {
+            -10 if !singular => {
+                singular = true;
+                world.entries(number).shift(SHIFT);
+            }
+            -8 | -9 => percent = room.next(),
+            code @ ..0 => return Err(words(world, number, code)),
+            _ => return Ok(singular),
         }
     }
-    if code < 0 {
-        return Err(words(world, number, code));
-    }
-    let bytes = 1e6 * f64::from(world.said_here(number, 22));
-    let used = world.gather(bytes);
-    let of_rank = |(estimated, used)| RankMemory { estimated, used };
-    Ok(estimated.into_iter().zip(used).map(of_rank).collect())
+    let code = world.said(number, 1);
+    Err(words(world, number, code))
 }
 
 /// What all ranks have, or in words what the first that has nothing says.
