@@ -55,7 +55,11 @@ fn an_engine_that_was_not_built_in_is_named_with_what_it_needs() {
     fs::write(folder.join("scene.json"), scene(PRESSED)).unwrap();
     let (code, said) = refused(&folder, &["solve", "scene.json", "--engine", "mumps"]);
     assert_eq!(code, Some(2));
-    for part in ["without the feature `mumps`", "--features mumps", "libmumps-dev"] {
+    for part in [
+        "without the feature `mumps`",
+        "--features mumps",
+        "libmumps-dev",
+    ] {
         assert!(said.contains(part), "{said}");
     }
     let (code, said) = refused(&folder, &["solve", "scene.json", "--engine", "pardiso"]);
