@@ -303,7 +303,7 @@ impl Condensed {
         let mut sum = Vec::new();
         for body in &self.bodies {
             let memory = body.factored.factor.memory();
-            sum.resize(memory.len(), RankMemory::default());
+            sum.resize(memory.len().max(sum.len()), RankMemory::default());
             for (sum, memory) in sum.iter_mut().zip(memory) {
                 sum.estimated += memory.estimated;
                 sum.used += memory.used;

@@ -19,14 +19,17 @@ use sprs::CsMat;
 
 use super::entries::Entries;
 use super::factorisation::{RankMemory, factorise, words};
-use super::mark;
 use super::ranks::{Request, with};
+use super::{World, mark};
 use crate::body::Body;
 use crate::condensation::columns::BorderRow;
 use crate::condensation::ordering::Ordering;
 
 /// Part of the probe's load that is left at most where the body cannot move without force.
 const SINGULAR: f64 = 1e-2;
+
+/// Why nothing is done outside of an MPI run.
+const ALONE: &str = "an engine without ranks: none are joined, or they have left,";
 
 /// Ways to solve, as ICNTL(26) numbers them.
 #[derive(Clone, Copy)]
@@ -70,7 +73,8 @@ pub(crate) struct Whole<'a> {
 /// A factor whose parts the ranks hold.
 #[derive(Debug)]
 pub(crate) struct Divided {
-    number: usize,
+    /// The instance; none where no displacement is unknown.
+    number: Option<usize>,
     border: usize,
     entries: usize,
     seconds: f64,
@@ -87,8 +91,11 @@ impl Divided {
         let border = whole.border.len();
         let size = whole.ordering.unknowns() + border;
         let fits = i32::try_from(size).is_ok() && i32::try_from(whole.stiffness.rows()).is_ok();
-        if !fits || size == 0 {
+        if !fits {
             return Err(Refusal::TooLarge);
+        }
+        if size == 0 {
+            return Ok(Self::default());
         }
         let mut complement = vec![0.0; border * border];
         let done = with(|world| {
@@ -106,10 +113,10 @@ impl Divided {
             Ok((factorised, positive, entries))
         });
         let (factorised, positive, entries) = done
-            .unwrap_or_else(|| Err("the ranks have left".to_owned()))
+            .unwrap_or_else(|| Err(ALONE.to_owned()))
             .map_err(Refusal::Says)?;
         let factor = Self {
-            number: factorised.number,
+            number: Some(factorised.number),
             border,
             entries,
             seconds: start.elapsed().as_secs_f64(),
@@ -156,7 +163,11 @@ impl Divided {
     pub(crate) fn free_displacement(&self, force: &[f64]) -> Vec<f64> {
         let mut reduced = vec![0.0; self.border];
         if self.border > 0 {
-            self.solve(Way::Reduce, &mut self.bordered(force), &mut reduced);
+            let mut x = self.bordered(force);
+            let ask = |ranks: &mut Asked<'_>| ranks.solve(Way::Reduce, &mut x, &mut reduced);
+            if !self.done(ask) {
+                reduced.fill(f64::NAN);
+            }
         }
         reduced.iter().map(|u| -u).collect()
     }
@@ -164,15 +175,21 @@ impl Divided {
     /// Displacement under a force per unknown and one per row of the border, in metre.
     pub(crate) fn displacement_under(&self, force: &[f64], forces: &[f64]) -> Vec<f64> {
         let mut x = self.bordered(force);
-        if self.border == 0 {
-            self.solve(Way::Plainly, &mut x, &mut []);
-            return x;
+        // What reduces is what expands: nobody comes in between.
+        let done = self.done(|ranks| {
+            if self.border == 0 {
+                return ranks.solve(Way::Plainly, &mut x, &mut []);
+            }
+            let mut reduced = vec![0.0; self.border];
+            ranks.solve(Way::Reduce, &mut x.clone(), &mut reduced)?;
+            for (reduced, force) in reduced.iter_mut().zip(forces) {
+                *reduced = -force;
+            }
+            ranks.solve(Way::Expand, &mut x, &mut reduced)
+        });
+        if !done {
+            x.fill(f64::NAN);
         }
-        let mut reduced = vec![0.0; self.border];
-        self.solve(Way::Reduce, &mut x.clone(), &mut reduced);
-        reduced.copy_from_slice(forces);
-        reduced.iter_mut().for_each(|t| *t = -*t);
-        self.solve(Way::Expand, &mut x, &mut reduced);
         x.truncate(force.len());
         x
     }
@@ -183,21 +200,17 @@ impl Divided {
         bordered
     }
 
-    fn solve(&self, way: Way, force: &mut [f64], reduced: &mut [f64]) {
-        let done = with(|world| {
-            let way = way as i32;
-            Request::Solve([self.number as i32, way]).ask(world);
-            match world.solve(self.number, way, force, reduced) {
-                0.. => Ok(()),
-                code => Err(words(world, self.number, code)),
-            }
-        });
-        if let Err(reason) = done.unwrap_or_else(|| Err("the ranks have left".to_owned())) {
-            force.fill(f64::NAN);
-            reduced.fill(f64::NAN);
-            let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
-            *failure = Some(reason);
-        }
+    /// Whether the ranks did some work; if not, why is kept.
+    fn done(&self, work: impl FnOnce(&mut Asked<'_>) -> Result<(), String>) -> bool {
+        let Some(number) = self.number else {
+            return true;
+        };
+        let done = with(|world| work(&mut Asked { world, number }));
+        let Err(reason) = done.unwrap_or_else(|| Err(ALONE.to_owned())) else {
+            return true;
+        };
+        *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(reason);
+        false
     }
 
     /// Refuses a body that moves without force, or against it: solved for some load, and for the motion that this
@@ -230,12 +243,46 @@ impl Divided {
     }
 }
 
+impl Default for Divided {
+    fn default() -> Self {
+        Self {
+            number: None,
+            border: 0,
+            entries: 0,
+            seconds: 0.0,
+            memory: Vec::new(),
+            compliance: Mat::new(),
+            failure: Mutex::new(None),
+        }
+    }
+}
+
 impl Drop for Divided {
     fn drop(&mut self) {
+        let Some(number) = self.number else {
+            return;
+        };
         with(|world| {
-            Request::Free(self.number as i32).ask(world);
-            world.free(self.number);
+            Request::Free(number as i32).ask(world);
+            world.free(number);
         });
+    }
+}
+
+/// The ranks, asked about one instance.
+struct Asked<'a> {
+    world: &'a mut World,
+    number: usize,
+}
+
+impl Asked<'_> {
+    fn solve(&mut self, way: Way, force: &mut [f64], reduced: &mut [f64]) -> Result<(), String> {
+        let (number, way) = (self.number, way as i32);
+        Request::Solve([number as i32, way]).ask(self.world);
+        match self.world.solve(number, way, force, reduced) {
+            0.. => Ok(()),
+            code => Err(words(self.world, number, code)),
+        }
     }
 }
 
@@ -396,7 +443,7 @@ mod tests {
         drop(ranks);
         assert!(factor.failure().is_none());
         assert!(factor.free_displacement(&force).iter().all(|u| u.is_nan()));
-        assert!(factor.failure().unwrap().contains("left"));
+        assert!(factor.failure().unwrap().contains("they have left"));
         let late = Divided::new(&sound);
         assert!(matches!(late, Err(Refusal::Says(_))), "{late:?}");
     }

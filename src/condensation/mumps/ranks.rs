@@ -161,11 +161,12 @@ impl Drop for Ranks {
         let Some(mut leaving) = world().take() else {
             return;
         };
-        if self.rank == 0 {
-            Request::Leave.ask(&mut leaving);
-        } else if std::thread::panicking() {
+        if self.count > 1 && std::thread::panicking() {
             // The others would wait for this one for ever.
             leaving.abort();
+        }
+        if self.rank == 0 {
+            Request::Leave.ask(&mut leaving);
         }
         leaving.leave();
     }
