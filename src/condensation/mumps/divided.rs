@@ -227,14 +227,17 @@ impl Divided {
         if let Some(reason) = self.failure() {
             return Err(Refusal::Says(reason));
         }
-        let left = whole.left(&load, &moved);
+        let forces = whole.forces(&moved);
+        let rest = load.iter().zip(&forces).map(|(f, k)| (f - k).powi(2));
+        let all: f64 = load.iter().map(|f| f.powi(2)).sum();
+        let left = f64::sqrt(rest.sum::<f64>() / all);
         // A NaN is no sound body.
         if positive && left <= SINGULAR {
             return Ok(());
         }
         let further = |a: &usize, b: &usize| moved[*a].abs().total_cmp(&moved[*b].abs());
         let most = (0..moved.len()).max_by(further).unwrap_or_default();
-        let work: f64 = load.iter().zip(&moved).map(|(f, u)| f * u).sum();
+        let work: f64 = forces.iter().zip(&moved).map(|(f, u)| f * u).sum();
         Err(Refusal::Moves {
             dof: ordering.dof[most],
             resistance: work / moved[most].powi(2),
@@ -305,21 +308,18 @@ impl Whole<'_> {
         Ok(part)
     }
 
-    /// `‖f − K' u‖ / ‖f‖`, both in the order of elimination.
-    fn left(&self, load: &[f64], moved: &[f64]) -> f64 {
+    /// `K' u`, both in the order of elimination.
+    fn forces(&self, moved: &[f64]) -> Vec<f64> {
         let mut displacement = vec![0.0; self.stiffness.rows()];
         for (&dof, u) in self.ordering.dof.iter().zip(moved) {
             displacement[dof] = *u;
         }
-        let (mut left, mut all) = (0.0, 0.0);
-        for (&dof, load) in self.ordering.dof.iter().zip(load) {
+        let force = |&dof: &usize| -> f64 {
             let row = self.stiffness.outer_view(dof);
             let terms = row.iter().flat_map(|row| row.iter());
-            let force: f64 = terms.map(|(other, k)| k * displacement[other]).sum();
-            left += (load - force).powi(2);
-            all += load.powi(2);
-        }
-        f64::sqrt(left / all)
+            terms.map(|(other, k)| k * displacement[other]).sum()
+        };
+        self.ordering.dof.iter().map(force).collect()
     }
 
     fn diagonal(&self, dof: usize) -> f64 {
