@@ -36,6 +36,7 @@ mod boundary;
 mod cell;
 mod check;
 mod condensed_cell;
+mod cut;
 mod dependence;
 mod dilatation;
 mod element;

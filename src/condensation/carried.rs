@@ -5,6 +5,9 @@
 //!        u_ref,i = B_i d(x_i)                        d: motion of the components that are given (C14)
 //! ```
 //!
+//! Between the faces of a cut d is what moves the second of them on, so that it counts against the first, from
+//! whichever side a contact looks. A cut that is locked has its shortening given.
+//!
 //! The motion is taken where a contact's displacement is measured and its force acts, so that what the
 //! bodies give each other is equal in force and moment. Amplitudes of rotations are in metre at the
 //! contact farthest from the reference point.
@@ -30,6 +33,8 @@ pub(super) struct Carried {
     sizes: Vec<f64>,
     /// Factor per body and component.
     factors: Vec<[f64; 6]>,
+    /// Shortening per body at which its cut is locked, in metre.
+    locked: Vec<Option<f64>>,
 }
 
 /// A contact against a rigid body.
@@ -39,6 +44,15 @@ struct Seat {
     body: usize,
     /// Where its displacement is measured, in metre.
     centre: [f64; 3],
+    /// −1 if it looks from the second face of a cut.
+    sign: f64,
+}
+
+impl Seat {
+    /// How its other side moves, in metre.
+    fn moved(&self, motion: &RigidMotion) -> [f64; 3] {
+        motion.at(self.centre).map(|d| self.sign * d)
+    }
 }
 
 impl Carried {
@@ -56,6 +70,7 @@ impl Carried {
                     contact,
                     body,
                     centre,
+                    sign: if at.second { -1.0 } else { 1.0 },
                 });
             }
         }
@@ -67,6 +82,37 @@ impl Carried {
             seats: seats.into(),
             sizes,
             factors: vec![[1.0; 6]; rigid.len()],
+            locked: vec![None; rigid.len()],
+        }
+    }
+
+    /// Locks cuts at a shortening per body, in metre, and frees all others; whether that changes what is free.
+    pub(super) fn lock(&mut self, locked: &[Option<f64>]) -> bool {
+        let mut changed = false;
+        for (old, new) in self.locked.iter_mut().zip(locked) {
+            changed |= old.is_some() != new.is_some();
+            *old = *new;
+        }
+        changed
+    }
+
+    /// Shortening per body at which its cut is locked, in metre.
+    pub(super) fn locked(&self) -> &[Option<f64>] {
+        &self.locked
+    }
+
+    /// The amplitudes, one per free mode, of those modes that are left once these cuts are locked.
+    pub(super) fn unlocked(&self, amplitudes: &[f64], locked: &[Option<f64>]) -> Vec<f64> {
+        let modes = self.free().zip(amplitudes);
+        let left = modes.filter(|((body, ..), _)| locked.get(*body).is_none_or(Option::is_none));
+        left.map(|(_, &amplitude)| amplitude).collect()
+    }
+
+    /// How each component of a body is given, and its factor.
+    fn component(&self, body: usize, k: usize) -> (Component, f64) {
+        match self.locked[body] {
+            Some(shortening) if k == 0 => (Component::Given(shortening), 1.0),
+            _ => (self.bodies[body].components[k], self.factors[body][k]),
         }
     }
 
@@ -74,9 +120,10 @@ impl Carried {
     fn free(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let bodies = self.bodies.iter().enumerate();
         let bodies = bodies.zip(&self.sizes);
-        bodies.flat_map(|((body, of_body), size)| {
+        bodies.flat_map(move |((body, of_body), size)| {
             let unit = move |k: usize| if k < 3 { 1.0 } else { 1.0 / size };
-            of_body.free().map(move |k| (body, k, unit(k)))
+            let free = of_body.free().filter(move |_| self.locked[body].is_none());
+            free.map(move |k| (body, k, unit(k)))
         })
     }
 
@@ -97,7 +144,7 @@ impl Carried {
             let motion = self.one(body, k, -unit);
             for seat in self.seats.iter().filter(|seat| seat.body == body) {
                 let contact = &surface.nodes[seat.contact];
-                let moved = motion.at(seat.centre);
+                let moved = seat.moved(&motion);
                 for (row, direction) in contact.frame[..=contact.tangents].iter().enumerate() {
                     let along: f64 = direction.iter().zip(moved).map(|(d, u)| d * u).sum();
                     modes[(firsts[seat.contact] + row, column)] = along;
@@ -143,8 +190,10 @@ impl Carried {
     }
 
     fn values(&self, body: usize, of: impl Fn(Component) -> f64) -> [f64; 6] {
-        let components = self.bodies[body].components;
-        std::array::from_fn(|k| self.factors[body][k] * of(components[k]))
+        std::array::from_fn(|k| {
+            let (component, factor) = self.component(body, k);
+            factor * of(component)
+        })
     }
 
     /// Given motion of a body.
@@ -181,7 +230,7 @@ impl Carried {
     /// Puts the displacement of the other side per contact, in metre, where that is a rigid body.
     pub(super) fn put(&self, motions: &[RigidMotion], moved: &mut [[f64; 3]]) {
         for seat in self.seats.iter() {
-            moved[seat.contact] = motions[seat.body].at(seat.centre);
+            moved[seat.contact] = seat.moved(&motions[seat.body]);
         }
     }
 

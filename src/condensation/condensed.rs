@@ -31,6 +31,7 @@ pub struct Condensed {
     pub(super) bodies: Vec<CondensedBody>,
     pub(super) interfaces: Arc<[Interface]>,
     pub(super) carried: Carried,
+    dimension: usize,
     pub(super) work: CondensationWork,
 }
 
@@ -152,6 +153,7 @@ impl Condensed {
             bodies: condensed,
             interfaces: interfaces.into(),
             carried,
+            dimension,
             work,
         };
         if !rigid.is_empty() {
@@ -216,6 +218,48 @@ impl Condensed {
     #[must_use]
     pub fn rigid_motions(&self, motion: &[f64]) -> Vec<RigidMotion> {
         self.carried.motions(self.of_rigid(motion))
+    }
+
+    /// Locks the cuts of rigid bodies at a shortening per body, in metre, and frees all others: what is given of them
+    /// acts from the next [`act`](Self::act) on.
+    ///
+    /// # Errors
+    ///
+    /// None for the bodies that were condensed.
+    pub fn lock(&mut self, locked: &[Option<f64>]) -> Result<(), Error> {
+        if !self.carried.lock(locked) {
+            return Ok(());
+        }
+        let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
+        let loads: Vec<_> = self.bodies.iter().map(|body| body.load()).collect();
+        let (surface, dimension) = (&self.surface, self.dimension);
+        let floating = floating(surface, &groundings, &loads, dimension, &self.carried)?;
+        self.problem = self.problem.clone().floating_as(floating);
+        Ok(())
+    }
+
+    /// Shortening per rigid body at which its cut is locked, in metre.
+    #[must_use]
+    pub fn locked(&self) -> &[Option<f64>] {
+        self.carried.locked()
+    }
+
+    /// What is locked after a state at an instant of a history, under an amplitude per free mode, and the amplitudes
+    /// of the modes that are then left.
+    #[must_use]
+    pub fn locks_from(&self, at: f64, motion: &[f64]) -> (Vec<Option<f64>>, Vec<f64>) {
+        let rigid = self.of_rigid(motion);
+        let moved = self.carried.motions(rigid);
+        let bodies = self.rigid_bodies().iter().zip(&moved).zip(self.locked());
+        let locked: Vec<_> = bodies
+            .map(|((body, moved), locked)| {
+                let from = body.cut?.locked_from?;
+                locked.or((at >= from).then(|| body.shortening(moved)))
+            })
+            .collect();
+        let mut left = motion[..motion.len() - rigid.len()].to_vec();
+        left.extend(self.carried.unlocked(rigid, &locked));
+        (locked, left)
     }
 
     /// Given force, in newton, and moment, in newton metre, on the free components of each.

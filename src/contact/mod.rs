@@ -45,5 +45,5 @@ pub use node::{ContactNode, OppositeNodes};
 pub(crate) use obstacle::Closest;
 pub use obstacle::{Obstacle, Outline, Profile, Triangulated};
 pub use pair::{ContactPair, Coupling, Opposite};
-pub use rigid_body::{Component, RigidBody, RigidMotion};
+pub use rigid_body::{Component, Cut, RigidBody, RigidMotion};
 pub use surface::ContactSurface;

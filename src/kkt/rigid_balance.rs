@@ -47,12 +47,9 @@ pub fn rigid_balance(
     rigid: &RigidBody,
     given: [f64; 6],
 ) -> Result<RigidBalance, Error> {
-    let [f_x, f_y, f_z, m_x, m_y, m_z] = given;
+    let [force, moment] = rigid.wrench(given);
     let mut found = RigidBalance {
-        given: Resultant {
-            force: [f_x, f_y, f_z],
-            moment: [m_x, m_y, m_z],
-        },
+        given: Resultant { force, moment },
         ..RigidBalance::default()
     };
     let Some(first) = states.first() else {
@@ -67,7 +64,8 @@ pub fn rigid_balance(
     let contacts = first.surface.nodes.iter().enumerate();
     for (i, contact) in contacts.filter(|(_, contact)| rigid.pairs.contains(&contact.pair)) {
         let on_body = global_force(contact, block(first.problem, i, first.reaction));
-        for share in shares(contact) {
+        // What is between two faces is in balance if it is with the first.
+        for share in shares(contact).filter(|share| share.own != contact.second) {
             let Some(x) =
                 (states.get(share.body)).and_then(|at| at.body.mesh.nodes.get(share.node))
             else {
@@ -80,16 +78,15 @@ pub fn rigid_balance(
             turning += length(arm) * length(force);
         }
     }
-    let free: Vec<usize> = rigid.free().collect();
-    let left = |first: usize, [a, b]: [[f64; 3]; 2]| {
-        [0, 1, 2].map(|axis| match free.contains(&(first + axis)) {
-            true => a[axis] + b[axis],
-            false => 0.0,
-        })
-    };
     let (contact, given) = (found.contact, found.given);
-    found.force_defect = Defect::of(&[left(0, [contact.force, given.force])], total);
-    found.moment_defect = Defect::of(&[left(3, [contact.moment, given.moment])], turning);
+    let force = [0, 1, 2].map(|axis| contact.force[axis] + given.force[axis]);
+    let free: Vec<usize> = rigid.free().collect();
+    let moment = [0, 1, 2].map(|axis| match free.contains(&(3 + axis)) {
+        true => contact.moment[axis] + given.moment[axis],
+        false => 0.0,
+    });
+    found.force_defect = Defect::of(&[rigid.freely(force)], total);
+    found.moment_defect = Defect::of(&[moment], turning);
     Ok(found)
 }
 
@@ -115,6 +112,7 @@ mod tests {
             reference: [0.0, 2.0, 0.0],
             components: [FREE, FREE, HELD, HELD, HELD, FREE],
             pairs: vec![0],
+            cut: None,
         };
         let stiffness = TriMat::new((2, 2)).to_csr();
         let state = BodyState {

@@ -155,7 +155,12 @@ impl Past {
         let problem = course.setup.condensed.problem();
         check_length("state.reaction", problem.unknowns(), saved.reaction.len())?;
         check_length("state.slip", problem.unknowns(), saved.slip.len())?;
-        check_length("state.motion", problem.free_modes(), saved.motion.len())?;
+        let rigid = course.setup.condensed.rigid_bodies().len();
+        let locked: Vec<Option<f64>> = match saved.locked.is_empty() {
+            true => vec![None; rigid],
+            false => saved.locked.iter().map(|s| s.map(|s| s.0)).collect(),
+        };
+        check_length("state.locked", rigid, locked.len())?;
         let bodies = &course.setup.bodies;
         check_length(
             "state.displacements",
@@ -177,7 +182,7 @@ impl Past {
         let state = course.state(
             saved.at.0,
             reaction,
-            motion,
+            (motion, &locked),
             plain(&saved.slip),
             &displacements,
         )?;
@@ -230,6 +235,7 @@ impl Solution {
     #[must_use]
     pub fn saved_state(&self) -> Option<SavedState> {
         let step = self.step.as_ref()?;
+        let locked = self.setup.condensed.locked();
         Some(SavedState {
             bodies: step.bodies,
             history: step.history,
@@ -237,6 +243,10 @@ impl Solution {
             at: Exact(step.at),
             reaction: exact(&self.outcome.reaction),
             motion: exact(&self.outcome.motion),
+            locked: match locked.iter().any(Option::is_some) {
+                true => locked.iter().map(|s| s.map(Exact)).collect(),
+                false => Vec::new(),
+            },
             slip: exact(step.state.slip()),
             displacements: self.displacements.iter().map(|u| exact(u)).collect(),
             ledger: exact(&step.total.entries()),

@@ -17,6 +17,7 @@
 //! | `step` | of a history: number, instant, values of the tables, ledger of the step and since the start, what halving it changed |
 //! | `totals` | counts of open, stick and slip, resultants, contact area, slip area, peak pressure; the same per contact pair, and what its sides exchange |
 //! | `rigid_bodies` | of each: motion of the reference point, contact force and moment there, what is given, what is left |
+//! | `bolts` | of each: force across its cut, shortening, whether that is held |
 //! | `accuracy` | with `--accuracy`: a total extrapolated over a family of meshes, its error, rate and levels |
 //! | `found` | of `dpana find`: the parameter, its value, the total there and its derivative |
 //! | `sensitivity` | with `--sensitivity`: derivatives of the totals with respect to friction, gaps, loads, supports, obstacles, moduli |
@@ -28,6 +29,7 @@
 
 mod accuracy;
 mod base64;
+mod bolt;
 mod certificate;
 mod contacts;
 mod digits;
@@ -74,6 +76,7 @@ mod work;
 use serde::Serialize;
 
 pub use accuracy::{Accuracy, AccuracyLevel};
+pub use bolt::ReportedBolt;
 pub(crate) use certificate::ReportedDefect;
 pub use certificate::{ReportedBalance, ReportedCertificate, ReportedWorst};
 pub use contacts::{Contact, ReportedContactState};
@@ -170,6 +173,9 @@ pub struct Report {
     /// How every rigid body moved and what acts on it; absent where there is none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rigid_bodies: Vec<ReportedRigidBody>,
+    /// What every bolt under preload carries; absent where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bolts: Vec<ReportedBolt>,
     /// How every rigid group has moved, and what holds it; absent where there is none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rigid_groups: Vec<ReportedRigidGroup>,
@@ -322,6 +328,7 @@ impl Report {
             extremes: ReportedExtremes::new(parts),
             supports: extremes::support_forces(parts),
             rigid_bodies: ReportedRigidBody::all(&parts.rigid, parts.dimension()),
+            bolts: ReportedBolt::all(&parts.rigid),
             rigid_groups: rigid_groups::rigid_groups(parts),
             quality: Quality::new(parts, &contacts),
             work: ReportedWork::new(parts),

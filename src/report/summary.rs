@@ -144,6 +144,13 @@ fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
             "                contact force {force}, moment {moment} on it"
         )?;
     }
+    for bolt in &report.bolts {
+        let (name, force, shortening) = (&bolt.name, number(bolt.force), number(bolt.shortening));
+        writeln!(
+            text,
+            "bolt            `{name}` carries {force}, shorter by {shortening}"
+        )?;
+    }
     for support in report.supports.iter().take(LISTED) {
         let (place, force) = (&support.place, vector(&support.force));
         writeln!(text, "support         {force} by {place}")?;

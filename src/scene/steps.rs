@@ -212,9 +212,7 @@ pub(crate) fn driven(bodies: &[Body], rigid: &[RigidBody]) -> Vec<(String, Drive
     }
     let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
     for (body, of) in rigid.iter().enumerate() {
-        let lives = |k: &usize| dimension == 3 || [0, 1, 5].contains(k);
-        let components = (0..6).filter(lives);
-        places.extend(components.map(|component| {
+        places.extend(of.movable(dimension).map(|component| {
             (
                 of.component_place(component, dimension),
                 Driven::Rigid { body, component },
@@ -266,6 +264,11 @@ impl LoadHistory {
             Source::Support(index) => Driven::Support { body, index },
             Source::Tie(index) => Driven::Motion { body, index },
         };
+        self.factor_of(driven, instant)
+    }
+
+    /// The factor of a load, support or component at an instant.
+    pub(crate) fn factor_of(&self, driven: Driven, instant: f64) -> f64 {
         let found = self.factors.iter().find(|(_, other, _)| *other == driven);
         found.map_or(1.0, |(.., table)| table.at(instant)[0])
     }

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod bolts;
 mod cells;
 mod gaps;
 mod heat;
