@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use super::Mesh;
 use crate::error::Error;
 
-/// Part of the mesh's size by which nodes of a cut may lie off its plane.
+/// Part of the cells' extent across a cut by which its nodes may lie off its plane.
 const IN_PLANE: f64 = 1e-6;
 
 impl Mesh {

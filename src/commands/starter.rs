@@ -72,7 +72,7 @@ pub(super) fn scene(mesh: &Mesh, name: &str, file: &Path) -> Result<Scene, Strin
             ]
         })
         .flatten()
-        .map(String::as_str)
+        .flat_map(|group| group.iter().map(String::as_str))
         .collect();
     let free: Vec<&Surface<'_>> = (surfaces.iter())
         .filter(|surface| !in_contact.contains(surface.name))
@@ -96,7 +96,7 @@ pub(super) fn scene(mesh: &Mesh, name: &str, file: &Path) -> Result<Scene, Strin
         loads: (loaded.iter())
             .map(|loaded| SceneLoad::Pressure {
                 pressure: 1.0,
-                group: (*loaded).to_owned(),
+                group: (*loaded).into(),
             })
             .collect(),
         ..SceneBody::new(name, source)
@@ -243,10 +243,10 @@ fn contacts(mesh: &Mesh, surfaces: &[Surface<'_>]) -> Vec<SceneContact> {
 
 fn touching(own: &str, other: &str) -> SceneContact {
     SceneContact {
-        group: own.to_owned(),
+        group: own.into(),
         against: Some(SceneSurface {
             body: None,
-            group: other.to_owned(),
+            group: other.into(),
         }),
         friction: Some(0.2),
         ..SceneContact::default()

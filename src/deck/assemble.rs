@@ -177,11 +177,11 @@ impl Stock<'_, '_> {
                 bodies[slave].add_surface(&self.contents, group, own);
                 bodies[master].add_surface(&self.contents, against, other);
                 contacts.push(SceneContact {
-                    group: group.clone(),
+                    group: group.clone().into(),
                     body: Some(self.parts.parts[slave].name.clone()),
                     against: Some(SceneSurface {
                         body: Some(self.parts.parts[master].name.clone()),
-                        group: against.clone(),
+                        group: against.clone().into(),
                     }),
                     friction: Some(law.friction),
                     ..SceneContact::default()
@@ -249,7 +249,7 @@ impl Building {
                 let mut displacement = vec![None; dimension];
                 displacement[axis] = Some(stated);
                 self.body.supports.push(SceneSupport::Group {
-                    group,
+                    group: group.into(),
                     displacement,
                 });
                 return format!("supports[{supports}]");
@@ -263,7 +263,7 @@ impl Building {
                 self.mesh.groups.insert(group.clone(), Group::Cells(cells));
                 SceneLoad::BodyForce {
                     body_force: along(axis),
-                    group: Some(group),
+                    group: Some(group.into()),
                 }
             }
             _ => {
@@ -273,7 +273,7 @@ impl Building {
                     .insert(group.clone(), Group::Facets(facets));
                 SceneLoad::Pressure {
                     pressure: stated,
-                    group,
+                    group: group.into(),
                 }
             }
         };

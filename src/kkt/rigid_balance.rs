@@ -144,6 +144,55 @@ mod tests {
         assert!(found.holds());
     }
 
+    /// The lid is tied to the box, and what is between them carries a force of `given` newton.
+    fn cut_under(reaction: &[f64; 2], given: f64, second: bool) -> RigidBalance {
+        let (bodies, mut surface, problem) = lid_on_box(0.0);
+        surface.nodes[0].second = second;
+        // From the first side to the second: the lid lies on the box.
+        let towards = [0.0, if second { 1.0 } else { -1.0 }, 0.0];
+        let between = RigidBody {
+            place: "bodies[0].bolts[0]".into(),
+            name: "bolt".into(),
+            reference: [1.0, 0.0, 0.0],
+            components: [Component::Free(given), HELD, HELD, HELD, HELD, HELD],
+            pairs: vec![0],
+            cut: Some(crate::contact::Cut {
+                towards,
+                locked_from: None,
+            }),
+        };
+        let stiffness = TriMat::new((2, 2)).to_csr();
+        let displacement = [0.0; 4];
+        let state = |index: usize| BodyState {
+            index,
+            body: &bodies[index],
+            stiffness: &stiffness,
+            load: &displacement,
+            prescribed: &[],
+            equations: &[],
+            values: &[],
+            surface: &surface,
+            problem: &problem,
+            reaction,
+            displacement: &displacement,
+        };
+        let states = [state(0), state(1)];
+        rigid_balance(&states, &between, [given, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap()
+    }
+
+    #[test]
+    fn what_is_between_two_sides_answers_the_pull_of_the_first_along_the_cut() {
+        // 8 N of tension, and 2 N across that the tie bears.
+        for second in [false, true] {
+            let found = cut_under(&[8.0, 2.0], 8.0, second);
+            assert!(found.force_defect.value < 1e-15, "{found:?}");
+            assert!(found.holds());
+            let found = cut_under(&[7.0, 2.0], 8.0, second);
+            assert!((found.force_defect.value - 1.0).abs() < 1e-15, "{found:?}");
+            assert!(!found.holds());
+        }
+    }
+
     #[test]
     fn a_force_that_nothing_answers_is_found() {
         // One newton less leaves 1 N, and 1 N m.

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::SceneGroup;
 use super::field::finite;
 use super::selection::{self, AT_NODE};
 use super::steps::LoadHistory;
@@ -27,7 +28,7 @@ pub struct SceneBolt {
     pub name: String,
     /// Group of cells that the plane cuts through: all cells around the cut.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub group: Option<String>,
+    pub group: Option<SceneGroup>,
     /// A point of the plane, in the unit of length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub point: Option<Vec<f64>>,
@@ -37,7 +38,7 @@ pub struct SceneBolt {
     /// In place of these: two groups of facets that lie on each other, of cells without common nodes there; the bolt
     /// runs along their normal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub faces: Option<[String; 2]>,
+    pub faces: Option<[SceneGroup; 2]>,
     /// Force that the bolt carries, positive if it pulls (plane strain: per unit of depth; axisymmetric: on the whole
     /// ring).
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,7 +63,7 @@ impl SceneBolt {
     pub fn preloaded(name: &str, group: &str, point: &[f64], axis: &[f64], force: f64) -> Self {
         Self {
             name: name.to_owned(),
-            group: Some(group.to_owned()),
+            group: Some(group.into()),
             point: Some(point.to_vec()),
             axis: Some(axis.to_vec()),
             force: Some(force),
@@ -71,10 +72,10 @@ impl SceneBolt {
     }
 
     /// Cuts the mesh, unless the faces are there already; their names, ahead along the axis and behind.
-    pub(super) fn cut(&self, place: &str, mesh: &mut Mesh) -> Result<[String; 2], Error> {
+    pub(super) fn cut(&self, place: &str, mesh: &mut Mesh) -> Result<[SceneGroup; 2], Error> {
         match (&self.group, &self.point, &self.axis, &self.faces) {
             (Some(group), Some(point), Some(axis), None) => {
-                let cells = selection::cells(mesh, &format!("{place}.group"), group)?.to_vec();
+                let cells = selection::cells(mesh, &format!("{place}.group"), group)?;
                 for &cell in &cells {
                     selection::check_cell(mesh, &format!("{place}.group"), cell)?;
                 }
@@ -84,7 +85,7 @@ impl SceneBolt {
                 let plane = [of("point", point)?, of("axis", axis)?];
                 mesh.cut(&self.name, &cells, plane)
                     .map_err(|error| within(place, error))?;
-                Ok(["own", "other"].map(|side| format!("{}.{side}", self.name)))
+                Ok(["own", "other"].map(|side| format!("{}.{side}", self.name).into()))
             }
             (None, None, None, Some(faces)) => Ok(faces.clone()),
             _ => Err(Error::NotAccepted {
@@ -100,7 +101,7 @@ impl SceneBolt {
         &self,
         place: &str,
         (index, mesh, model): (usize, &Mesh, Model),
-        faces: &[String; 2],
+        faces: &[SceneGroup; 2],
     ) -> Result<Resolved, Error> {
         let at = |side: usize| match self.faces {
             Some(_) => format!("{place}.faces[{side}]"),

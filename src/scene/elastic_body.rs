@@ -331,7 +331,7 @@ impl SceneBody {
                 });
             };
             let place = format!("{place}.group");
-            for &cell in selection::cells(mesh, &place, group)? {
+            for cell in selection::cells(mesh, &place, group)? {
                 selection::check_cell(mesh, &place, cell)?;
                 if of_cell[cell] != NONE {
                     return Err(Error::NotAccepted {

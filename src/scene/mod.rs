@@ -20,6 +20,7 @@ mod elastic_body;
 mod field;
 mod foundation;
 mod general_contact;
+mod group;
 mod half_space;
 mod heat;
 mod height_map;
@@ -60,6 +61,7 @@ pub use elastic_body::{SceneBody, SceneFormulation, SceneModel};
 pub use field::{SceneAffine, SceneAffineVector, SceneLine, SceneSpin, SceneTurn};
 pub use foundation::SceneFoundation;
 pub use general_contact::SceneGeneralContact;
+pub use group::SceneGroup;
 pub use half_space::{
     HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
     SceneSurfaceShape, SceneSurroundings,

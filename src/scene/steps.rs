@@ -53,7 +53,7 @@ pub struct SceneSteps {
     /// By what a load, a support, or a component of a rigid body is multiplied: rows `[instant, factor]`, rising,
     /// under its place, such as `bodies[0].loads[1]`, `bodies[0].supports[0]` or `rigid_bodies[0].force[1]`; of a
     /// rigid group its given motion, `bodies[0].rigid_groups[0].motion`, and force and moment,
-    /// `bodies[0].rigid_groups[0].load`.
+    /// `bodies[0].rigid_groups[0].load`; of a bolt what is given, `bodies[0].bolts[0].force` or `.shortening`.
     #[serde(default)]
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or

@@ -39,7 +39,7 @@ fn scene(cells: usize, pull: f64) -> Result<Scene, Error> {
     let area = 400.0;
     let traction = |group: &str, traction| SceneLoad::Traction {
         traction,
-        group: group.to_owned(),
+        group: group.into(),
     };
     pad.loads = vec![
         traction("top", vec![0.0, 0.0, -PRESSED / area]),

@@ -55,7 +55,7 @@ pub(super) fn scene(mesh: Mesh, friction: f64) -> Scene {
         displacement: vec![None, Some(0.0)],
     });
     for (group, pressure) in ["left", "top"].into_iter().zip(PRESSURE) {
-        let group = group.to_owned();
+        let group = group.into();
         square.loads.push(SceneLoad::Pressure { pressure, group });
     }
     on(plane(&[0.0, 1.0]), square, "bottom", friction)

@@ -40,7 +40,7 @@ fn scene(friction: f64, cells: usize, pull: f64) -> Result<Scene, Error> {
         },
         SceneLoad::Traction {
             traction: vec![pull / LENGTH, 0.0],
-            group: "bottom".to_owned(),
+            group: "bottom".into(),
         },
     ];
     Ok(on(plane(&[-sin, cos]), wedge, "bottom", friction))

@@ -137,7 +137,7 @@ fn a_joint_that_is_tightened_and_then_pulled_follows_its_springs_until_it_parts(
         }
         let clamped: f64 = report.totals.pairs[..2]
             .iter()
-            .map(|pair| pair.normal)
+            .map(|pair| pair.totals.normal)
             .sum();
         close(clamped, force - load);
     }
@@ -229,7 +229,7 @@ fn a_bar_along_any_direction_is_shortened_against_its_stiffness() {
         let (mesh, _) = leaning_bar(ahead);
         let bolt = SceneBolt {
             name: "bolt".to_owned(),
-            faces: Some(["cut.own", "cut.other"].map(str::to_owned)),
+            faces: Some(["cut.own", "cut.other"].map(Into::into)),
             shortening: Some(0.02),
             ..SceneBolt::default()
         };
@@ -288,11 +288,11 @@ fn bolts_that_cannot_be_are_refused_with_the_key_and_the_cure() {
         &[place, "`group`, `point` and `axis`, or `faces`"],
     );
     says(
-        refused(|bolt| bolt.group = Some("shnak".to_owned())),
+        refused(|bolt| bolt.group = Some("shnak".into())),
         &["bolts[0].group", "shank"],
     );
     says(
-        refused(|bolt| bolt.group = Some("under".to_owned())),
+        refused(|bolt| bolt.group = Some("under".into())),
         &["bolts[0].group", "cells"],
     );
     says(
@@ -320,7 +320,7 @@ fn bolts_that_cannot_be_are_refused_with_the_key_and_the_cure() {
     );
     let faces = |bolt: &mut SceneBolt| {
         (bolt.group, bolt.point, bolt.axis) = (None, None, None);
-        bolt.faces = Some(["under", "end"].map(str::to_owned));
+        bolt.faces = Some(["under", "end"].map(Into::into));
     };
     says(refused(faces), &["bolts[0].faces", "lie on each other"]);
     let driven = |instant: f64, rows: &[[f64; 2]]| {

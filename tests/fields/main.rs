@@ -5,6 +5,7 @@
 mod bolts;
 mod cells;
 mod gaps;
+mod group_lists;
 mod heat;
 mod loads;
 mod local_supports;

@@ -31,7 +31,7 @@ pub(crate) fn hold(mut body: SceneBody, group: &str, axis: usize, value: f64) ->
     let mut displacement = vec![None; axes];
     displacement[axis] = Some(value);
     body.supports.push(SceneSupport::Group {
-        group: group.to_owned(),
+        group: group.into(),
         displacement,
     });
     body

@@ -33,7 +33,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
     let of_facets =
         |(name, group): (&String, &Group)| matches!(group, Group::Facets(_)).then(|| name.clone());
     let facets: Vec<String> = mesh.groups.iter().filter_map(of_facets).collect();
-    let any = |group: Option<&String>| group.cloned().unwrap_or_default();
+    let any = |group: Option<&String>| group.cloned().unwrap_or_default().into();
     let axes = |values: [f64; 3]| values[..dimension].to_vec();
     let up = if dimension == 2 {
         [0.0, 1.0, 0.0]
