@@ -5,11 +5,12 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::field::{finite, is_zero};
+use super::itself::two_sides;
 use super::law::{SceneCompliance, SceneLaw, coefficient};
 use super::rigid_body::Resolved;
 use super::{SceneGroup, SceneObstacle, selection, spelling};
 use crate::body::{Body, Facet};
-use crate::contact::{ContactPair, Opposite, PairLaw, facing_itself};
+use crate::contact::{ContactPair, Opposite, PairLaw};
 use crate::error::Error;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
@@ -148,38 +149,7 @@ impl SceneContact {
     ) -> Result<ContactPair, Error> {
         let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
         finite(format!("{place}.gap"), self.gap)?;
-        let mesh = &bodies[body].mesh;
-        let mut facets = selection::facets(mesh, &format!("{place}.group"), &self.group)?;
-        let stated = (
-            &self.obstacle,
-            &self.against,
-            &self.rigid_body,
-            self.against_itself,
-        );
-        let opposite = match stated {
-            (Some(obstacle), None, None, None) => {
-                let place = format!("{place}.obstacle");
-                Opposite::Obstacle(obstacle.resolve(&place, folder, mesh.dimension)?)
-            }
-            (None, Some(surface), None, None) => {
-                surface.resolve(&format!("{place}.against"), bodies)?
-            }
-            (None, None, Some(name), None) => {
-                let of = &rigid[self.rigid_number(place, name, rigid)?];
-                Opposite::Obstacle(of.surface(place, self.surface)?)
-            }
-            (None, None, None, Some(distance)) => {
-                let place = format!("{place}.against_itself");
-                let sides = two_sides(&place, &bodies[body], facets, distance)?;
-                let [own, facing] = sides;
-                facets = own;
-                Opposite::Surface {
-                    body,
-                    facets: facing,
-                }
-            }
-            _ => return Err(self.not_one_side(place)),
-        };
+        let (facets, opposite) = self.sides(place, folder, (body, bodies), rigid)?;
         if let (None, Some(surface)) = (&self.rigid_body, self.surface) {
             return Err(Error::NotAccepted {
                 place: format!("{place}.surface"),
@@ -212,6 +182,48 @@ impl SceneContact {
 }
 
 impl SceneContact {
+    /// The facets of the contact and what they may touch.
+    fn sides(
+        &self,
+        place: &str,
+        folder: &Path,
+        (body, bodies): (usize, &[Body]),
+        rigid: &[Resolved],
+    ) -> Result<(Vec<Facet>, Opposite), Error> {
+        let mesh = &bodies[body].mesh;
+        let facets = selection::facets(mesh, &format!("{place}.group"), &self.group)?;
+        let stated = (
+            &self.obstacle,
+            &self.against,
+            &self.rigid_body,
+            self.against_itself,
+        );
+        let opposite = match stated {
+            (Some(obstacle), None, None, None) => {
+                let place = format!("{place}.obstacle");
+                Opposite::Obstacle(obstacle.resolve(&place, folder, mesh.dimension)?)
+            }
+            (None, Some(surface), None, None) => {
+                surface.resolve(&format!("{place}.against"), bodies)?
+            }
+            (None, None, Some(name), None) => {
+                let of = &rigid[self.rigid_number(place, name, rigid)?];
+                Opposite::Obstacle(of.surface(place, self.surface)?)
+            }
+            (None, None, None, Some(distance)) => {
+                let place = format!("{place}.against_itself");
+                let [facets, other] = two_sides(&place, &bodies[body], facets, distance)?;
+                let facing = Opposite::Surface {
+                    body,
+                    facets: other,
+                };
+                return Ok((facets, facing));
+            }
+            _ => return Err(self.not_one_side(place)),
+        };
+        Ok((facets, opposite))
+    }
+
     /// Number of the rigid body that the contact names.
     pub(super) fn rigid_number(
         &self,
@@ -298,40 +310,6 @@ impl SceneSurface {
         let mesh = &bodies[body].mesh;
         let facets = selection::facets(mesh, &format!("{place}.group"), &self.group)?;
         Ok(Opposite::Surface { body, facets })
-    }
-}
-
-/// The two sides on which facets of a body meet each other within a distance, in metre.
-fn two_sides(
-    place: &str,
-    body: &Body,
-    facets: Vec<Facet>,
-    distance: f64,
-) -> Result<[Vec<Facet>; 2], Error> {
-    if !(distance > 0.0 && distance.is_finite()) {
-        return Err(Error::OutOfRange {
-            place: place.to_owned(),
-            value: distance,
-            accepted: "0 < distance < infinity",
-        });
-    }
-    let refuse = |found: String, accepted: &str| {
-        Err(Error::NotAccepted {
-            place: place.to_owned(),
-            found,
-            accepted: accepted.to_owned(),
-        })
-    };
-    match facing_itself(body, facets, distance) {
-        Some([first, _]) if first.is_empty() => refuse(
-            format!("{distance}, within which no facet of the group faces another one"),
-            "a distance as large as the gap that closes",
-        ),
-        Some(sides) => Ok(sides),
-        None => refuse(
-            format!("{distance}, within which facets face each other all around"),
-            "a smaller distance, or a group of two walls that face each other",
-        ),
     }
 }
 

@@ -24,6 +24,7 @@ mod group;
 mod half_space;
 mod heat;
 mod height_map;
+mod itself;
 mod json;
 mod law;
 mod load;

@@ -8,7 +8,7 @@
 use dpana::body::{CellKind, Facet, Group, Mesh};
 use dpana::report::Report;
 use dpana::scene::{SceneBody, SceneBolt, SceneContact, SceneRigidGroup, SceneSteps, SceneSupport};
-use dpana::{Scene, solve_steps};
+use dpana::{Scene, Status, solve_steps};
 use nalgebra::{Rotation3, Vector3};
 
 use crate::stacks::{block, body, certified, scene};
@@ -102,6 +102,9 @@ fn in_steps(change: impl Fn(&mut Scene)) -> Scene {
 fn reports(scene: &Scene) -> Vec<Report> {
     let mut reports = Vec::new();
     solve_steps(scene, None, |solution| {
+        // To lock a bolt factorises nothing.
+        assert_eq!(solution.status(), Status::Certified);
+        assert_eq!(solution.condensed().work().factorisations, 3);
         reports.push(solution.report()?);
         Ok(())
     })

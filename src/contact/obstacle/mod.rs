@@ -19,6 +19,7 @@
 //! | triangles in space | `triangulated` |
 
 mod cone;
+mod drawn;
 mod ellipsoid;
 mod paraboloid;
 mod profile;
