@@ -27,6 +27,8 @@ const ROUND_OFF: f64 = 1e-13;
 /// Rigid bodies, where contacts see them, and what acts on them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Carried {
+    /// As they are stated, and with what is locked.
+    stated: Arc<[RigidBody]>,
     bodies: Arc<[RigidBody]>,
     seats: Arc<[Seat]>,
     /// Distance of the farthest contact from each reference point, in metre.
@@ -78,6 +80,7 @@ impl Carried {
             *size = if *size > 0.0 { *size } else { 1.0 };
         }
         Self {
+            stated: rigid.into(),
             bodies: rigid.into(),
             seats: seats.into(),
             sizes,
@@ -88,11 +91,19 @@ impl Carried {
 
     /// Locks cuts at a shortening per body, in metre, and frees all others; whether that changes what is free.
     pub(super) fn lock(&mut self, locked: &[Option<f64>]) -> bool {
-        let mut changed = false;
-        for (old, new) in self.locked.iter_mut().zip(locked) {
-            changed |= old.is_some() != new.is_some();
-            *old = *new;
+        if self.locked == locked {
+            return false;
         }
+        let held = |locked: &[Option<f64>]| locked.iter().map(Option::is_some).collect::<Vec<_>>();
+        let changed = held(&self.locked) != held(locked);
+        let mut bodies = self.stated.to_vec();
+        for (body, shortening) in bodies.iter_mut().zip(locked) {
+            if let Some(shortening) = shortening {
+                body.components[0] = Component::Given(*shortening);
+            }
+        }
+        self.bodies = bodies.into();
+        self.locked = locked.to_vec();
         changed
     }
 
@@ -108,22 +119,13 @@ impl Carried {
         left.map(|(_, &amplitude)| amplitude).collect()
     }
 
-    /// How each component of a body is given, and its factor.
-    fn component(&self, body: usize, k: usize) -> (Component, f64) {
-        match self.locked[body] {
-            Some(shortening) if k == 0 => (Component::Given(shortening), 1.0),
-            _ => (self.bodies[body].components[k], self.factors[body][k]),
-        }
-    }
-
     /// Body, component and amplitude's unit of every free mode.
     fn free(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         let bodies = self.bodies.iter().enumerate();
         let bodies = bodies.zip(&self.sizes);
-        bodies.flat_map(move |((body, of_body), size)| {
+        bodies.flat_map(|((body, of_body), size)| {
             let unit = move |k: usize| if k < 3 { 1.0 } else { 1.0 / size };
-            let free = of_body.free().filter(move |_| self.locked[body].is_none());
-            free.map(move |k| (body, k, unit(k)))
+            of_body.free().map(move |k| (body, k, unit(k)))
         })
     }
 
@@ -190,10 +192,13 @@ impl Carried {
     }
 
     fn values(&self, body: usize, of: impl Fn(Component) -> f64) -> [f64; 6] {
-        std::array::from_fn(|k| {
-            let (component, factor) = self.component(body, k);
-            factor * of(component)
-        })
+        let components = self.bodies[body].components;
+        // A shortening that is locked has no factor.
+        let factor = |k: usize| match self.locked[body] {
+            Some(_) => 1.0,
+            None => self.factors[body][k],
+        };
+        std::array::from_fn(|k| factor(k) * of(components[k]))
     }
 
     /// Given motion of a body.
@@ -256,7 +261,7 @@ impl Carried {
         check_finite(place, &self.forces(body))
     }
 
-    /// The rigid bodies.
+    /// The rigid bodies, with what is locked.
     pub(super) fn bodies(&self) -> &[RigidBody] {
         &self.bodies
     }

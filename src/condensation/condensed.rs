@@ -208,7 +208,7 @@ impl Condensed {
         &motion[elastic..]
     }
 
-    /// The rigid bodies.
+    /// The rigid bodies, with what is locked.
     #[must_use]
     pub fn rigid_bodies(&self) -> &[RigidBody] {
         self.carried.bodies()

@@ -339,7 +339,6 @@ impl Solution {
                 bodies: condensed.rigid_bodies(),
                 motions: &rigid_motions,
                 balances: &self.measured.rigid,
-                locked: condensed.locked(),
             },
             extremes: self.extremes(),
             support_forces: &support_forces,

@@ -23,13 +23,12 @@ pub struct ReportedBolt {
 
 impl ReportedBolt {
     pub(super) fn all(parts: &RigidParts<'_>) -> Vec<Self> {
-        let all = parts.all().zip(parts.locked);
-        let bolts = all.filter(|((body, ..), _)| body.cut.is_some());
-        let bolt = bolts.map(|((body, motion, balance), locked)| Self {
+        let bolts = parts.all().filter(|(body, ..)| body.cut.is_some());
+        let bolt = bolts.map(|(body, motion, balance)| Self {
             name: body.name.clone(),
             force: -body.along(balance.contact.force),
             shortening: body.shortening(motion),
-            held: locked.is_some() || body.free().next().is_none(),
+            held: body.free().next().is_none(),
             force_defect: balance.force_defect.into(),
         });
         bolt.collect()

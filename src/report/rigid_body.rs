@@ -15,8 +15,6 @@ pub struct RigidParts<'a> {
     pub motions: &'a [RigidMotion],
     /// Their equilibrium.
     pub balances: &'a [RigidBalance],
-    /// Shortening at which the cut of each is locked, in metre.
-    pub locked: &'a [Option<f64>],
 }
 
 impl<'a> RigidParts<'a> {

@@ -87,10 +87,12 @@ fn in_steps(change: impl Fn(&mut Scene)) -> Scene {
     let mut bolt = tightened();
     bolt.locked_from = Some(1.0);
     let mut scene = joint(bolt, 12.0);
-    let mut steps = SceneSteps::default();
-    steps.at = vec![1.0, 2.0, 3.0, 4.0];
     let rows = [[1.0, 0.0], [2.0, 5.0 / 12.0], [3.0, 0.75], [4.0, 1.0]];
     let rows = rows.map(|row| row.to_vec()).to_vec();
+    let mut steps = SceneSteps {
+        at: vec![1.0, 2.0, 3.0, 4.0],
+        ..SceneSteps::default()
+    };
     steps
         .factors
         .insert("bodies[0].rigid_groups[0].load".to_owned(), rows);

@@ -201,7 +201,8 @@ fn every_shape_of_an_obstacle_is_drawn() {
         let scene = Scene::from_json(&scene.to_string(), "").unwrap();
         let path = page_of(&scene, &folder(&format!("page_shape_{at}")));
         let drawn = &elements(&path, "scene")[0]["pairs"][0]["obstacle"]["rows"];
-        let rows = drawn.as_array().unwrap_or_else(|| panic!("{shape}"));
+        assert!(drawn.is_array(), "{shape}");
+        let rows = drawn.as_array().unwrap();
         assert!(rows.len() > 1, "{shape}");
         // The apex, or the line it lies on, 1 below the middle of the block.
         let points = rows.iter().flat_map(|row| row.as_array().unwrap());
