@@ -11,6 +11,7 @@ use dpana::scene::{SceneBody, SceneBolt, SceneContact, SceneRigidGroup, SceneSte
 use dpana::{Scene, Status, solve_steps};
 use nalgebra::{Rotation3, Vector3};
 
+use crate::local_supports::shipped;
 use crate::stacks::{block, body, certified, scene};
 
 /// Stiffness of the bolt and of the members, in N/m, and the preload, in newton.
@@ -345,4 +346,25 @@ fn bolts_that_cannot_be_are_refused_with_the_key_and_the_cure() {
         driven(2.0, &[[1.0, 1.0], [3.0, 2.0]]),
         &["steps.factors.bodies[0].bolts[0].force", "locked at 2"],
     );
+}
+
+#[test]
+fn the_shipped_flange_keeps_its_shortening_and_its_members_carry_what_the_bolt_does_less_the_pull()
+{
+    let reports = reports(&shipped("bolted_flange.json"));
+    let first = &reports[0].bolts[0];
+    assert!((first.force - 20_000.0).abs() < 1e-8 && !first.held);
+    for (report, pull) in reports.iter().zip([0.0, 4e3, 8e3, 12e3]) {
+        let bolt = &report.bolts[0];
+        assert!((bolt.shortening / first.shortening - 1.0).abs() < 1e-12);
+        let normal = |pair: usize| report.totals.pairs[pair].totals.normal;
+        // Head and nut carry the bolt, the flanges each other.
+        for pair in [0, 1] {
+            assert!((normal(pair) / bolt.force - 1.0).abs() < 1e-9);
+        }
+        assert!((normal(2) - (bolt.force - pull)).abs() < 1e-8 * bolt.force);
+    }
+    // The bolt takes a small part of the pull: the flange is much stiffer.
+    let part = (reports[3].bolts[0].force - first.force) / 12e3;
+    assert!((0.0..0.1).contains(&part), "{part}");
 }

@@ -95,3 +95,28 @@ fn what_does_not_meet_itself_is_refused() {
     both.against_itself = Some(0.1);
     assert!(refused(both).contains("`against` and `against_itself`"));
 }
+
+fn shipped(name: &str) -> dpana::report::Report {
+    let file = format!("{}/examples/scenes/{name}", env!("CARGO_MANIFEST_DIR"));
+    certified(&dpana::Scene::from_file(file).unwrap()).1
+}
+
+#[test]
+fn the_shipped_clip_closes_and_the_shipped_stack_carries_its_load_from_plate_to_plate() {
+    let clip = shipped("clip.json");
+    assert!(clip.totals.stick + clip.totals.slip > 0 && clip.totals.open > 0);
+    // 5 N/mm² on 45 mm × 10 mm, through both pairs that were found.
+    let stack = shipped("stack.json");
+    let normals: Vec<f64> = stack
+        .totals
+        .pairs
+        .iter()
+        .map(|pair| pair.totals.normal)
+        .collect();
+    assert_eq!(normals.len(), 2);
+    assert!(
+        normals
+            .iter()
+            .all(|normal| (normal - 2250.0).abs() < 1e-8 * 2250.0)
+    );
+}
