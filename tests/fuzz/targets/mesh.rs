@@ -4,8 +4,8 @@
 use dpana::body::{Group, Mesh};
 use dpana::mesh_file;
 use dpana::scene::{
-    MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
-    SceneObstacle, SceneSupport, SceneSurface,
+    Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
+    SceneGroup, SceneObstacle, SceneSupport, SceneSurface,
 };
 use dpana_fuzz::attempt;
 use libfuzzer_sys::fuzz_target;
@@ -33,7 +33,7 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
     let of_facets =
         |(name, group): (&String, &Group)| matches!(group, Group::Facets(_)).then(|| name.clone());
     let facets: Vec<String> = mesh.groups.iter().filter_map(of_facets).collect();
-    let any = |group: Option<&String>| group.cloned().unwrap_or_default().into();
+    let any = |group: Option<&String>| SceneGroup::from(group.cloned().unwrap_or_default());
     let axes = |values: [f64; 3]| values[..dimension].to_vec();
     let up = if dimension == 2 {
         [0.0, 1.0, 0.0]
@@ -55,15 +55,11 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
     };
     Scene {
         bodies: vec![SceneBody {
-            name: "part".into(),
             model: (dimension == 2).then_some(SceneModel::PlaneStrain),
             materials: vec![SceneMaterial::new(1000.0, 0.3)],
             supports: if choice % 2 == 0 { vec![hold] } else { vec![] },
             loads: vec![load],
-            mesh: MeshSource::Given(mesh),
- foundation: Vec::new(),
-formulation: dpana::scene::SceneFormulation::default(),
-groups: std::collections::BTreeMap::new(),
+            ..SceneBody::new("part", mesh)
         }],
         contacts: vec![SceneContact {
             group: any(facets.first()),
