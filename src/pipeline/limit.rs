@@ -1,7 +1,5 @@
 //! The limit pipeline: scene → rigid bodies → cone programs → judge; scene → its state → elastic limits.
 
-use nalgebra::Vector3;
-
 use super::{Setup, solve_steps};
 use crate::alternation::{Outcome, Status};
 use crate::body::{Body, Load};
@@ -20,15 +18,11 @@ const HOLDS: f64 = 1e-9;
 /// Beyond the limit by this part, reactions of more than a thousand times the load would be needed.
 const BEYOND: (f64, f64) = (1e-6, 1e3);
 
-/// Turn of a body in radian beyond which displacements are not small, 5°.
-const SMALL_TURN: f64 = 5.0 * std::f64::consts::PI / 180.0;
-
 /// By what factor each load of a scene can grow, the others held, before nothing holds the bodies
 /// that supports leave free; and how much friction the loads take.
 ///
 /// Two answers per load: of rigid bodies, an upper bound that needs no stiffness, and of the elastic ones, between
 /// a factor whose state is certified and one at which nothing holds. Only elastic bodies say how hard an overlap presses.
-/// What is held only after a body has turned by more than 5°, as on facets that lean a little, counts as not held.
 /// A scene with load steps is solved to its end, and grows from there, with the slip so far.
 ///
 /// ```
@@ -219,11 +213,7 @@ impl Elastic {
             guess,
             state: state.map(|last| (&last.reaction[..], &last.motion[..])),
         };
-        let is_near = |motion: &[f64]| {
-            let mut parts = self.setup.condensed.motions(motion).into_iter();
-            parts.all(|part| Vector3::from(part.rotation).norm() <= SMALL_TURN)
-        };
-        elastic_limit(&without, &stated, &self.setup.settings, start, &is_near)
+        elastic_limit(&without, &stated, &self.setup.settings, start)
     }
 }
 
@@ -365,13 +355,10 @@ impl<'a> Case<'a> {
 
     fn reported(&self, found: ElasticLimit) -> ReportedElasticLimit {
         let (fails, failure) = found.fails.unzip();
-        let (far, motion) = found.far.unzip();
-        let motion = motion.or(failure.map(|failure| failure.motion));
         ReportedElasticLimit {
             held: found.held,
             fails,
-            far,
-            motions: motion.map_or_else(Vec::new, |motion| self.motions(&motion)),
+            motions: failure.map_or_else(Vec::new, |failure| self.motions(&failure.motion)),
         }
     }
 

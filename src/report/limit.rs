@@ -44,9 +44,7 @@ pub struct ReportedElasticLimit {
     pub held: Option<f64>,
     /// Least multiple at which nothing was found to hold the bodies.
     pub fails: Option<f64>,
-    /// Least multiple that is held only after a turn beyond small displacements (5°): as the bodies stand, it is not.
-    pub far: Option<f64>,
-    /// How the bodies begin to move at the least of both.
+    /// How the bodies begin to move there.
     pub motions: Vec<ReportedMotion>,
 }
 
@@ -155,14 +153,6 @@ impl Beyond {
 impl ReportedElasticLimit {
     fn words(&self) -> String {
         let then = sentence(&self.motions);
-        if let Some(far) = self.far {
-            let held = self
-                .held
-                .map_or("none".to_owned(), |held| format!("{held:.9} times"));
-            return format!(
-                "{held} holds, {far:.9} only after a turn beyond 5 degrees; then {then}"
-            );
-        }
         match (self.held, self.fails) {
             (Some(held), Some(fails)) => {
                 format!("{held:.9} times holds, {fails:.9} does not; then {then}")
