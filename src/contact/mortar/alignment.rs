@@ -6,12 +6,9 @@
 //! weights that removes it, with their sum kept, is
 //!
 //! ```text
-//! min Σ_k δ_k²/|P_k|   s.t.  Σ_k δ_k = 0,  Σ_k δ_k τ_k = −v_T        τ_k = (x²_k − x̄²)_T,  x̄²: mean under |P_k|
-//! δ_k = −|P_k| τ_k · (Σ_k |P_k| τ_k τ_kᵀ)⁻¹ v_T
+//! min Σ_k δ_k²   s.t.  Σ_k δ_k = 0,  Σ_k δ_k τ_k = −v_T        τ_k = (x²_k − x̄²)_T
+//! δ_k = −τ_k · (Σ_k τ_k τ_kᵀ)⁻¹ v_T
 //! ```
-//!
-//! A node changes by a part of its weight: one that a facet beside the contact's own brings in with a weight of
-//! round-off has no say, and it does not matter whether it is there.
 //!
 //! By duality a rigid rotation of both sides then opens no contact (C10). Along an axis that
 //! supports hold on both sides, as across a symmetry plane, no rotation goes, and the mirror image
@@ -32,15 +29,13 @@ const ROUND_OFF: f64 = 1e-9;
 /// Spread of the positions, relative to the largest, that is none.
 const RANK: f64 = 1e-10;
 
-/// Corrects the weights in place, each in proportion to the `share` of it; positions of side 2 in metre, nothing moves
-/// along `still` directions.
+/// Corrects the weights in place; positions of side 2 in metre, nothing moves along `still` directions.
 pub(super) fn align(
     weights: &mut [(usize, f64)],
     positions: &[[f64; 3]],
     from: [f64; 3],
     normal: Vector3<f64>,
     still: &Directions,
-    share: impl Fn(f64) -> f64,
 ) {
     let axes = tangents(normal);
     let across = |vector: Vector3<f64>| {
@@ -54,20 +49,14 @@ pub(super) fn align(
     let mut offsets: Vec<Vector2<f64>> = offsets.map(across).collect();
     let stray = offsets.iter().zip(weights.iter());
     let stray: Vector2<f64> = stray.map(|(offset, (_, weight))| offset * *weight).sum();
-    let shares: Vec<f64> = weights.iter().map(|entry| share(entry.1)).collect();
-    let terms = offsets.iter().zip(&shares);
-    let mean = terms
-        .map(|(offset, share)| offset * *share)
-        .sum::<Vector2<f64>>()
-        / shares.iter().sum::<f64>();
+    let mean = offsets.iter().sum::<Vector2<f64>>() / offsets.len() as f64;
     let mut spread = Matrix2::zeros();
-    for (offset, share) in offsets.iter_mut().zip(&shares) {
+    for offset in &mut offsets {
         *offset -= mean;
-        spread += *offset * offset.transpose() * *share;
+        spread += *offset * offset.transpose();
     }
     let multiplier = solve(spread, stray);
-    let changes = offsets.iter().zip(&shares);
-    let changes = changes.map(|(offset, share)| -offset.dot(&multiplier) * share);
+    let changes = offsets.iter().map(|offset| -offset.dot(&multiplier));
     let largest = changes
         .clone()
         .fold(LARGEST, |most, change| change.abs().max(most));
@@ -160,7 +149,6 @@ mod tests {
             from.into(),
             normal,
             &Directions::default(),
-            f64::abs,
         );
         assert!(stray(&weights, from, normal).norm() < 1e-16);
         assert!((weights.iter().map(|entry| entry.1).sum::<f64>() - 1.0).abs() < 1e-15);
@@ -181,7 +169,6 @@ mod tests {
             from.into(),
             normal,
             &Directions::default(),
-            f64::abs,
         );
         let left = stray(&weights, from, normal);
         assert!(
@@ -200,7 +187,6 @@ mod tests {
             from.into(),
             normal,
             &[true, false, false].into(),
-            f64::abs,
         );
         let left = stray(&weights, from, normal);
         assert!(
@@ -216,7 +202,6 @@ mod tests {
             from.into(),
             normal,
             &[true, true, false].into(),
-            f64::abs,
         );
         assert_eq!(weights, before);
     }
@@ -231,7 +216,6 @@ mod tests {
             from.into(),
             normal,
             &Directions::default(),
-            f64::abs,
         );
         // (−0.4, 0) to go: 0.1 for each node moves the mean by 0.2.
         assert!((weights[1].1 - 0.35).abs() < 1e-15 && (weights[0].1 - 0.15).abs() < 1e-15);
@@ -263,7 +247,6 @@ mod tests {
             [0.9, 0.5, 0.0],
             Vector3::z(),
             &Directions::default(),
-            f64::abs,
         );
         assert_eq!(one, [(2, 1.0)]);
     }

@@ -233,10 +233,10 @@ impl MortarNode {
         let all = self.opposite.clone();
         clear(&mut self.opposite);
         // Nodes that it does not meet help where the others are too few, as at the end of a body.
-        let (mut gap, mut size) = self.aligned(x, normal, still, mesh2, f64::abs);
+        let (mut gap, mut size) = self.aligned(x, normal, still, mesh2);
         if is_across(normal, gap, size, still) {
             self.opposite = all;
-            (gap, size) = self.aligned(x, normal, still, mesh2, |_| 1.0);
+            (gap, size) = self.aligned(x, normal, still, mesh2);
         }
         let normal = follow(normal, gap, size, still);
         self.normal = normal.into();
@@ -244,18 +244,16 @@ impl MortarNode {
         self.initial_gap = gap.dot(&normal) - self.taken;
     }
 
-    /// Lets the weights of the nodes that it meets follow a normal (C10), in proportion to a share of each: the gap vector
-    /// then, and the distance of the farthest node, in metre.
+    /// Lets the weights of the nodes that it meets follow a normal (C10): the gap vector then, and the distance of
+    /// the farthest node, in metre.
     fn aligned(
         &mut self,
         x: Vector3<f64>,
         normal: Vector3<f64>,
         still: &Directions,
         mesh2: &Mesh,
-        share: impl Fn(f64) -> f64,
     ) -> (Vector3<f64>, f64) {
-        let weights = &mut self.opposite;
-        align(weights, &mesh2.nodes, x.into(), normal, still, share);
+        align(&mut self.opposite, &mesh2.nodes, x.into(), normal, still);
         clear(&mut self.opposite);
         let (mut gap, mut size) = (Vector3::zeros(), COORDINATE * x.amax());
         for (k, weight) in &self.opposite {
