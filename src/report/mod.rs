@@ -68,6 +68,8 @@ mod totals;
 mod trust;
 #[cfg(feature = "cli")]
 mod verification;
+#[cfg(feature = "cli")]
+mod verification_page;
 pub mod vtu;
 mod work;
 

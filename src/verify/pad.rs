@@ -15,6 +15,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "code_aster SSNV503",
     floor: "",
     measure,
+    drawn: None,
 };
 
 /// Pressing force, and pulls of 0.99 and 1.01 times what friction holds, in newton.

@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "code_aster V6.04.128; limit and rows computed independently",
     floor: "the limit is known to 0.001e-6 m, 6.5e-5 of the smallest value",
     measure,
+    drawn: Some(|| Ok(scene(square(16, [1.0, 1.0], CellKind::Quad4)?, 1.0))),
 };
 
 /// Side of the square, in metre.

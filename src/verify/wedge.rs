@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "NAFEMS CGS-4 (E10)",
     floor: "",
     measure,
+    drawn: Some(|| scene(0.2, 4, 0.2)),
 };
 
 const SLOPE: f64 = 0.1;
