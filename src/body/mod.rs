@@ -17,6 +17,7 @@
 //! (B15) K = K_uu − K_uα K_αα⁻¹ K_αu                cells that bend as beams do           modes.rs
 //! (B16) Σ a_k u_k = b                             what depends on what             tie.rs
 //! (B17) u = T q + E b                             what is left of the unknowns     dependence.rs
+//! (B18) ∫ (σ̂ − σ) : C⁻¹ : (σ̂ − σ) dV               a bound of how wrong it is     equilibrated/
 //! ```
 //!
 //! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
@@ -40,6 +41,7 @@ mod dependence;
 mod dilatation;
 mod element;
 mod entries;
+mod equilibrated;
 mod extremes;
 mod facet;
 mod fixing;
@@ -87,6 +89,7 @@ pub(crate) use facet::FacetGeometry;
 pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;
 
+pub(crate) use equilibrated::stress_error_bound;
 pub(crate) use fixing::fixing_dofs;
 pub(crate) use foundation::foundation_forces;
 pub use foundation::{Foundation, Ground};

@@ -78,6 +78,10 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
+    /// Bound the error of the stress of plane and axisymmetric bodies, by a stress that is in equilibrium at every
+    /// point, which takes a small problem for each cell.
+    #[arg(long)]
+    bound: bool,
     /// Print the whole report on standard output, in JSON, and no summary.
     #[arg(long, conflicts_with = "report")]
     json: bool,
@@ -148,6 +152,9 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     }
     if arguments.quality {
         report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
+    }
+    if arguments.bound {
+        report.quality.stress_error_bound = Some(solution.stress_error_bound()?);
     }
     let missed = accuracy.as_ref().is_some_and(|accuracy| !accuracy.reached);
     report.accuracy = accuracy;

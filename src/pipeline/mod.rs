@@ -5,6 +5,7 @@ mod accuracy;
 mod cases;
 mod check;
 mod corrected;
+mod error_bound;
 mod find;
 mod half_space;
 mod half_space_cases;
@@ -381,24 +382,6 @@ impl Solution {
                 }
             })
             .collect()
-    }
-
-    /// Estimated error of the stress of all bodies relative to the stress, both in the energy
-    /// norm (B9); 0 where there is no stress.
-    #[must_use]
-    pub fn stress_error_estimate(&self) -> f64 {
-        let solved = self.setup.bodies.iter().zip(&self.displacements);
-        let (mut error, mut energy) = (0.0, 0.0);
-        for (body, displacement) in solved {
-            let found = body::stress_recovery(body, displacement);
-            error += found.error;
-            energy += found.energy;
-        }
-        if energy > 0.0 {
-            (error / energy).sqrt()
-        } else {
-            0.0
-        }
     }
 
     /// Solves the contacts of a certified solution again from this many other starts, estimates how

@@ -23,7 +23,7 @@
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
 //! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
-//! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
+//! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress, with `--bound` a bound of it |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
 
 mod accuracy;

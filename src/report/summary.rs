@@ -174,6 +174,9 @@ fn quality(text: &mut String, report: &Report) -> std::fmt::Result {
     if let Some(estimate) = report.quality.stress_error_estimate {
         parts.push(format!("stress is wrong by about {}", percent(estimate)));
     }
+    if let Some(bound) = report.quality.stress_error_bound {
+        parts.push(format!("stress is wrong by {} at most", percent(bound)));
+    }
     match parts.is_empty() {
         true => Ok(()),
         false => writeln!(text, "mesh            {}", parts.join(", ")),
