@@ -3,7 +3,7 @@
 use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 /// Part of the conditions' matrix that is added to its diagonal, as some follow from others.
-const ADDED: f64 = 1e-11;
+const ADDED: f64 = 1e-8;
 
 /// Steps that take what is added away again.
 const STEPS: usize = 8;

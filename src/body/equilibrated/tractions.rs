@@ -28,7 +28,7 @@ const BALANCED: f64 = 1e-8;
 const NO_FORCE: f64 = 1e-9;
 
 /// Sweeps over what equilibrium leaves free; any number gives a bound.
-const SWEEPS: usize = 10;
+const SWEEPS: usize = 20;
 
 /// `∫_e t λ_a ds` for both corners of an edge, with the weight of a ring.
 pub(super) type Moments = [Vector2<f64>; 2];

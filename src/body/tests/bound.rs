@@ -162,6 +162,41 @@ fn the_bound_is_above_the_error_against_cells_four_times_smaller_and_below_three
 }
 
 #[test]
+fn the_bound_is_the_same_in_other_units_places_and_directions() {
+    let bound = |kind: CellKind, young: f64, size: f64, angle: f64, shift: f64| {
+        let mut body = distorted(kind);
+        body.materials[0] = Material::new(young, 0.3);
+        let moved = nodal(&body, |x| [(2.0 * x.x).sin() * x.y, x.y.cos() * x.x]);
+        let turned = |[x, y]: [f64; 2]| {
+            let (sin, cos) = angle.sin_cos();
+            [size * (cos * x - sin * y), size * (sin * x + cos * y)]
+        };
+        for node in &mut body.mesh.nodes {
+            let [x, y] = turned([node[0], node[1]]);
+            *node = [x + shift, y - shift, 0.0];
+        }
+        let moved = moved.chunks(2).flat_map(|u| turned([u[0], u[1]]));
+        give(&mut body, &moved.collect::<Vec<_>>());
+        let u = solve(&body);
+        stress_error_bound(&body, &u, &[]).unwrap() / (young * size * size)
+    };
+    for kind in PLANE {
+        let here = bound(kind, 1.0, 1.0, 0.0, 0.0);
+        for (young, size, angle, shift) in [
+            (2.1e11, 1e-6, 0.0, 0.0),
+            (1e-3, 1e4, 0.7, 0.0),
+            (1.0, 1.0, 2.5, 1e3),
+        ] {
+            let there = bound(kind, young, size, angle, shift);
+            assert!(
+                (there / here - 1.0).abs() < 1e-6,
+                "{kind:?} {angle} {here} {there}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_the_bound_does_not_know_is_refused_by_name() {
     let says = |change: fn(&mut Body), part: &str| {
         let mut body = loaded(distorted(CellKind::Quad8).mesh, Model::PlaneStrain);
