@@ -134,6 +134,23 @@ impl Carried {
         load
     }
 
+    /// What a unit more of the factor of a component gives: motion of every body, and e.
+    pub(super) fn rate_of(&self, rigid: usize, component: usize) -> (Vec<RigidMotion>, Vec<f64>) {
+        let one = Self {
+            factors: vec![[1.0; 6]; self.bodies.len()],
+            ..self.clone()
+        };
+        let mut motions: Vec<_> = self
+            .bodies
+            .iter()
+            .map(|body| body.motion([0.0; 6]))
+            .collect();
+        if let Component::Given(motion) = self.bodies[rigid].components[component] {
+            motions[rigid] = self.one(rigid, component, motion);
+        }
+        (motions, one.load_of(rigid, component))
+    }
+
     /// Given forces on the free components of a body, in newton, and moments in newton metre.
     pub(super) fn forces(&self, body: usize) -> [f64; 6] {
         self.values(body, |component| match component {

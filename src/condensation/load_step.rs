@@ -111,21 +111,24 @@ impl Condensed {
 
     /// (C14).
     pub(super) fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
-        let mut reference = slip.to_vec();
         let given = self.carried.motions(&[]);
         let mut moved = self.surface.obstacle_motions(obstacles);
         self.carried.put(&given, &mut moved);
+        self.along_contacts(&moved, slip)
+    }
+
+    /// Displacement of the other side per contact, in its directions, and along tangents this slip.
+    pub(super) fn along_contacts(&self, moved: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
+        let mut along = slip.to_vec();
         let contacts = self.surface.nodes.iter().zip(moved);
         for ((contact, moved), &first) in contacts.zip(self.problem.normals()) {
-            reference[first] = 0.0;
-            for (row, entry) in contact.frame[..=contact.tangents]
-                .iter()
-                .zip(&mut reference[first..])
-            {
+            along[first] = 0.0;
+            let rows = contact.frame[..=contact.tangents].iter();
+            for (row, entry) in rows.zip(&mut along[first..]) {
                 *entry += row.iter().zip(moved).map(|(n, d)| n * d).sum::<f64>();
             }
         }
-        reference
+        along
     }
 }
 

@@ -553,3 +553,81 @@ fn a_floor_of_triangles_or_a_profile_is_a_plane() {
         }
     }
 }
+
+#[test]
+fn what_is_given_to_a_rigid_body_changes_the_totals_as_differences_say() {
+    // Pressed in by a force and tilted by a moment, or moved and turned; drawn aside in both cases.
+    let lines = growing(0.1, 0.3, 1.0);
+    let mesh = rectangle(&lines, &falling(&lines), CellKind::Quad4).unwrap();
+    let ball = json!({"circle": {"center": [0.5, 2], "radius": 2}});
+    let free = json!({"displacement": [1e-3, null], "rotation": [null], "force": [0, -0.03], "moment": [0.001]});
+    let given = json!({"displacement": [1e-3, -5e-3], "rotation": [2e-3]});
+    for (moves, friction) in [(&free, 0.3), (&given, 0.3), (&given, 0.0), (&free, 0.0)] {
+        let mut scene = scene("plane_strain", &ball, moves, friction);
+        scene["rigid_bodies"][0]["reference"] = json!([0.5, 0]);
+        let solve = |scene: &Value| {
+            let mut scene = scene.clone();
+            scene["settings"] = json!({"tolerance": 1e-13});
+            solve(&with_meshes(&scene, vec![mesh.clone()])).unwrap()
+        };
+        let all = solve(&scene).sensitivities().unwrap().unwrap();
+        let given = moves.as_object().unwrap();
+        let places = given.iter().flat_map(|(key, values)| {
+            let values = values.as_array().unwrap().iter().enumerate();
+            let stated =
+                values.filter(|(_, value)| value.as_f64().is_some_and(|value| value != 0.0));
+            stated.map(move |(entry, _)| (key.as_str(), entry))
+        });
+        let mut compared = 0;
+        for (key, entry) in places {
+            let name = format!("rigid_bodies[0].{key}[{entry}]");
+            let found = all.iter().find(|one| one.parameter == name).unwrap();
+            let at = |factor: f64| {
+                let mut moved = scene.clone();
+                let number = moved["rigid_bodies"][0][key][entry].as_f64().unwrap();
+                moved["rigid_bodies"][0][key][entry] = json!(number * factor);
+                let mut table = dpana::report::Table::default();
+                table.push(&[], &solve(&moved).report().unwrap());
+                table
+            };
+            let (below, above) = (at(1.0 - 1e-5), at(1.0 + 1e-5));
+            for of in [
+                "normal",
+                "friction_x",
+                "contact_force_y",
+                "peak_pressure",
+                "largest_slip",
+            ] {
+                let [low, high] = [&below, &above].map(|table| table.column(of).unwrap()[0]);
+                let difference = (high - low) / 2e-5;
+                let off = (found.of(of).unwrap() - difference).abs();
+                let rounding = 1e-7 * low.abs() + 1e-12;
+                assert!(
+                    off <= 1e-6 * difference.abs() + rounding,
+                    "{friction}: d({of})/d({name}) = {} and {difference}",
+                    found.of(of).unwrap()
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared >= 10, "{friction} {moves}");
+    }
+}
+
+#[test]
+fn a_ball_stiffens_as_hertz_says() {
+    // P = 4/3 E* √R δ^(3/2): dP/dδ = 3/2 P/δ = 2 E* a. Between two nodes the zone stays as it is, half a ring off at most.
+    let hertz = HertzSphere::new(1e-3, 10.0, MODULUS).unwrap();
+    let fine = hertz.contact_radius / 16.0;
+    let lines = growing(fine, 20.0 * fine, 400.0 * hertz.contact_radius);
+    let mesh = rectangle(&lines, &falling(&lines), CellKind::Quad4).unwrap();
+    let ball = json!({"circle": {"center": [0, 10], "radius": 10}});
+    let moved = json!({"displacement": [0, -hertz.approach]});
+    let scene = scene("axisymmetric", &ball, &moved, 0.0);
+    let (solution, report) = certified(&with_meshes(&scene, vec![mesh]));
+    let name = "rigid_bodies[0].displacement[1]";
+    let found = solution.sensitivity(name).unwrap().unwrap();
+    // Per factor of δ.
+    let rate = found.of("normal").unwrap() / report.totals.normal;
+    assert!((rate / 1.5 - 1.0).abs() < 0.5 / 16.0, "{rate}");
+}
