@@ -77,11 +77,9 @@ fn run(
     tolerance: f64,
     variant: Option<Variant>,
 ) -> Result<Outcome, Box<dyn Error>> {
-    let settings = Settings {
-        tolerance,
-        max_sweeps: 1_000_000,
-        ..Settings::default()
-    };
+    let settings = Settings::default()
+        .with_tolerance(tolerance)
+        .with_max_sweeps(1_000_000);
     let outcome = match variant {
         None => solve(problem, &settings)?,
         Some(variant) => variant.solve(problem, &settings)?,

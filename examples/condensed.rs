@@ -87,10 +87,7 @@ fn run(file: &Path, symmetrise: bool) -> Result<Solved, Box<dyn Error>> {
 
 fn solved(bare: &BareProblem) -> Result<Solved, dpana::Error> {
     let problem = bare.to_problem()?;
-    let settings = Settings {
-        tolerance: TOLERANCE,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_tolerance(TOLERANCE);
     let outcome = solve(&problem, &settings)?;
     Ok(Solved {
         name: bare.name.clone(),

@@ -49,9 +49,11 @@
 //! | a measured total, and the friction or load wanted that gives it | [`find`] |
 //! | the question how much load or friction it takes | [`limit`](limit()) |
 //! | the question what theory says | [`closed_forms`] |
+//! | bodies whose factors one machine cannot hold | [`Ranks`] |
 //!
 //! The README has the signs and the scene format. Without the feature `cli`, which is there by default,
-//! the crate is the library alone: no command line, JSON Schema, gallery, studies or figures.
+//! the crate is the library alone: no command line, JSON Schema, gallery, studies or figures. With `mumps`, which
+//! is not, MUMPS of the system divides factors among the processes of an MPI run.
 
 pub mod alternation;
 pub mod body;
@@ -79,6 +81,7 @@ pub mod validity;
 pub mod verify;
 
 pub use alternation::{Outcome, Settings, Status};
+pub use condensation::{Engine, Ranks};
 pub use error::Error;
 pub use kkt::{Certificate, Judge};
 pub use pipeline::{

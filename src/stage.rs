@@ -35,6 +35,7 @@ const STAGES: [Stage; 6] = [
 static NOW: AtomicU8 = AtomicU8::new(0);
 static CONTACTS: AtomicUsize = AtomicUsize::new(0);
 static DENSE_BYTES: AtomicUsize = AtomicUsize::new(0);
+static RANK_BYTES: AtomicU64 = AtomicU64::new(0);
 static SWEEPS: AtomicUsize = AtomicUsize::new(0);
 static RESIDUAL: AtomicU64 = AtomicU64::new(0);
 
@@ -67,6 +68,8 @@ pub struct Progress {
     pub contacts: usize,
     /// What the condensed problem takes of the memory, in bytes; 0 until that is known.
     pub dense_bytes: usize,
+    /// What factors take of the memory of the rank that needs most, in bytes, as estimated before; 0 on one process.
+    pub rank_bytes: f64,
     /// Sweeps of the outer loop so far.
     pub sweeps: usize,
     /// The judge's residual after the last of them, relative.
@@ -80,6 +83,7 @@ pub fn progress() -> Progress {
         stage: STAGES[usize::from(NOW.load(Relaxed)).min(STAGES.len() - 1)],
         contacts: CONTACTS.load(Relaxed),
         dense_bytes: DENSE_BYTES.load(Relaxed),
+        rank_bytes: f64::from_bits(RANK_BYTES.load(Relaxed)),
         sweeps: SWEEPS.load(Relaxed),
         residual: f64::from_bits(RESIDUAL.load(Relaxed)),
     }
@@ -89,6 +93,13 @@ pub fn progress() -> Progress {
 pub(crate) fn found(contacts: usize, dense_bytes: usize) {
     CONTACTS.store(contacts, Relaxed);
     DENSE_BYTES.store(dense_bytes, Relaxed);
+    RANK_BYTES.store(0.0_f64.to_bits(), Relaxed);
+}
+
+/// Notes what one more factor takes of the memory of the rank that needs most, in bytes.
+pub(crate) fn divided(bytes: f64) {
+    let before = f64::from_bits(RANK_BYTES.load(Relaxed));
+    RANK_BYTES.store((before + bytes).to_bits(), Relaxed);
 }
 
 /// Notes how far the outer loop is.

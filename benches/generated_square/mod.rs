@@ -21,8 +21,8 @@ pub(crate) fn square(per_side: usize) -> Result<Scene, Box<dyn Error>> {
     };
     // The generator names the sides by where they are; the mesh file by what they do.
     if let SceneSupport::Group { group, .. } = &mut body.supports[0] {
-        *group = "right".to_owned();
+        *group = "right".into();
     }
-    scene.contacts[0].group = "bottom".to_owned();
+    scene.contacts[0].group = "bottom".into();
     Ok(scene)
 }

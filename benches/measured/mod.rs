@@ -6,28 +6,42 @@ use std::error::Error;
 use std::process::Command;
 use std::time::Instant;
 
-use dpana::condensation::Condensed;
-use dpana::kkt::{self, BodyState, SceneGeometry, Surroundings};
+use dpana::kkt::{BodyState, SceneGeometry, Surroundings};
 use dpana::{Scene, Status};
 
 /// Prints a Markdown table with a row per number of cells along a side.
 ///
 /// Only the first size where `--quick` is asked for, or where `cargo test` runs the bench
-/// (`cargo bench` says `--bench`).
+/// (`cargo bench` says `--bench`); `--cells N` is for one size, and `--estimate` for what that will take.
 pub(crate) fn table(
     sizes: &[usize],
     scene: impl Fn(usize) -> Result<Scene, Box<dyn Error>>,
 ) -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let has = |option: &str| arguments.iter().any(|argument| argument == option);
-    if let Some(at) = arguments.iter().position(|argument| argument == "--size") {
-        let size = arguments.get(at + 1).ok_or("--size: expected a number")?;
-        println!("{}", row(&scene(size.parse()?)?, size)?);
+    let number = |option: &str| -> Result<Option<usize>, Box<dyn Error>> {
+        let Some(at) = arguments.iter().position(|argument| argument == option) else {
+            return Ok(None);
+        };
+        let size = arguments.get(at + 1).map(|size| size.parse());
+        let size = size.ok_or_else(|| format!("{option}: expected a number"))?;
+        Ok(Some(size?))
+    };
+    if let Some(size) = number("--size")? {
+        println!("{}", row(&scene(size)?, size)?);
         return Ok(());
     }
+    let one = number("--cells")?;
+    let sizes = match &one {
+        Some(size) => std::slice::from_ref(size),
+        None if has("--quick") || !has("--bench") => &sizes[..1],
+        None => sizes,
+    };
+    if has("--estimate") {
+        return estimate(sizes, scene);
+    }
     println!("{}", header());
-    let quick = has("--quick") || !has("--bench");
-    for size in &sizes[..if quick { 1 } else { sizes.len() }] {
+    for size in sizes {
         let child = Command::new(std::env::current_exe()?)
             .args(["--size", &size.to_string()])
             .status()?;
@@ -38,7 +52,28 @@ pub(crate) fn table(
     Ok(())
 }
 
-const COLUMNS: [&str; 15] = [
+/// Prints what each size will take, without factorising.
+fn estimate(
+    sizes: &[usize],
+    scene: impl Fn(usize) -> Result<Scene, Box<dyn Error>>,
+) -> Result<(), Box<dyn Error>> {
+    println!("| per side | unknowns | contacts | entries of L | L and dense, MiB | 1e9 products |");
+    println!("|---:|---:|---:|---:|---:|---:|");
+    for &size in sizes {
+        let found = dpana::check(&scene(size)?)?.estimate;
+        println!(
+            "| {size} | {} | {} | {} | {:.0} | {:.1} |",
+            found.unknowns,
+            found.contacts,
+            found.factor_entries,
+            found.bytes as f64 / f64::from(1 << 20),
+            1e-9 * found.operations,
+        );
+    }
+    Ok(())
+}
+
+const COLUMNS: [&str; 17] = [
     "per side",
     "unknowns",
     "contacts",
@@ -47,6 +82,8 @@ const COLUMNS: [&str; 15] = [
     "rest s",
     "rest / factorisation",
     "rest / (ordering + factorisation)",
+    "single precision",
+    "corrections",
     "sweeps",
     "cone iterations",
     "Newton steps",
@@ -61,26 +98,20 @@ fn header() -> String {
     format!("| {} |\n|{}|", COLUMNS.join(" | "), rule.join("|"))
 }
 
-/// Solves the scene stage by stage; the rest is all that is neither assembly nor ordering
-/// nor factorisation.
-fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
-    let mechanics = scene.mechanics()?;
-    let bodies = &mechanics.bodies;
-    let condensed = Condensed::new(bodies, &mechanics.contacts)?;
-    let start = Instant::now();
-    let problem = condensed.problem();
-    let outcome = dpana::alternation::solve(problem, &mechanics.settings)?;
-    let displacements = condensed.recover(&outcome.reaction, &outcome.motion)?;
-    let mut balanced = true;
-    for state in BodyState::of_bodies(bodies, &condensed, &outcome.reaction, &displacements) {
-        balanced &= kkt::balance(&state)?.equilibrium.scaled <= 1e-8;
+/// Solves the scene; the rest is all that is neither assembly nor ordering nor factorisation.
+fn row(scene: &Scene, size: usize) -> Result<String, Box<dyn Error>> {
+    let solution = dpana::solve(scene)?;
+    let (condensed, report) = (solution.condensed(), solution.report()?);
+    if solution.status() != Status::Certified {
+        return Err(format!("{size} per side is not certified").into());
     }
-    let work = condensed.work();
-    let rest = work.condensation_seconds + start.elapsed().as_secs_f64();
+    let pairs = scene.mechanics()?.contacts;
     let judging = Instant::now();
-    let geometry = SceneGeometry::new(bodies, &mechanics.contacts, condensed.surface())?;
-    let fits = geometry.fit(
-        &BodyState::of_bodies(bodies, &condensed, &outcome.reaction, &displacements),
+    let (bodies, outcome) = (solution.bodies(), solution.outcome());
+    let geometry = SceneGeometry::new(bodies, &pairs, condensed.surface())?;
+    let displacements = solution.displacements();
+    geometry.fit(
+        &BodyState::of_bodies(bodies, condensed, &outcome.reaction, displacements),
         &Surroundings {
             obstacles: &[],
             openings: &[],
@@ -89,29 +120,26 @@ fn row(scene: &Scene, size: &str) -> Result<String, Box<dyn Error>> {
         },
     )?;
     let judging = judging.elapsed().as_secs_f64();
-    balanced &= fits.iter().all(|fit| fit.fault().is_none());
-    if outcome.status != Status::Certified || !balanced {
-        return Err(format!("{size} per side is not certified").into());
-    }
-    let (ordering, factorisation) = (work.ordering_seconds, work.factorisation_seconds);
+    let (work, seconds) = (&report.work, &report.work.seconds);
+    let (ordering, factorisation) = (seconds.ordering, seconds.factorisation);
+    let rest = seconds.total - seconds.assembly - ordering - factorisation;
     let cells = [
-        size.to_owned(),
-        work.unknowns.to_string(),
-        problem.contacts().to_string(),
+        size.to_string(),
+        condensed.work().unknowns.to_string(),
+        condensed.problem().contacts().to_string(),
         format!("{ordering:.3}"),
         format!("{factorisation:.3}"),
         format!("{rest:.3}"),
         format!("{:.3}", rest / factorisation),
         format!("{:.3}", rest / (ordering + factorisation)),
-        outcome.work.sweeps.to_string(),
-        outcome.work.cone_iterations.to_string(),
-        outcome.work.newton_steps.to_string(),
-        format!("{:.1e}", outcome.verdict.certificate.natural_map),
+        (if work.single_factors > 0 { "yes" } else { "no" }).to_owned(),
+        work.corrections.to_string(),
+        work.sweeps.to_string(),
+        work.cone_iterations.to_string(),
+        work.newton_steps.to_string(),
+        format!("{:.1e}", report.certificate.natural_map),
         format!("{judging:.3}"),
-        format!(
-            "{:.3}",
-            judging / (work.assembly_seconds + ordering + factorisation + rest)
-        ),
+        format!("{:.3}", judging / seconds.total),
         peak_memory().map_or("–".to_owned(), |peak| format!("{peak:.0}")),
     ];
     Ok(format!("| {} |", cells.join(" | ")))

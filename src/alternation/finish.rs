@@ -157,7 +157,9 @@ impl<'a> Finish<'a> {
             .collect();
         let mut next = self.opened(from, &laws);
         let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.block.clone()).collect();
-        let matrix = Factored::new(&self.matrix(&laws, &unknowns, springs.softness));
+        // Before there is another as large.
+        self.last = None;
+        let matrix = Factored::new(self.matrix(&laws, &unknowns, springs.softness));
         let solution = matrix.solve(&self.right_side(&laws, &next, springs));
         self.last = Some(matrix);
         if !solution.iter().all(|x| x.is_finite()) {

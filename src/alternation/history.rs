@@ -4,6 +4,7 @@ use crate::kkt::{Impossibility, Verdict};
 
 /// A solved contact problem.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Outcome {
     /// Certified, or not.
     pub status: Status,
@@ -27,6 +28,14 @@ pub struct Outcome {
     pub history: Vec<SweepRecord>,
     /// What it took.
     pub work: Work,
+}
+
+impl Seconds {
+    /// Of all stages.
+    pub(crate) fn total(&self) -> f64 {
+        let programs = self.coulomb + self.normal + self.friction;
+        self.predict + programs + self.finish + self.judge
+    }
 }
 
 impl Outcome {
@@ -134,6 +143,7 @@ pub struct SweepRecord {
 
 /// Counts and seconds of a whole solve.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Work {
     /// Gauss–Seidel passes of the prediction (or of the baseline).
     pub passes: usize,
@@ -192,6 +202,7 @@ impl Work {
 
 /// Wall time by stage of the outer loop, in second.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Seconds {
     /// Prediction.
     pub predict: f64,

@@ -244,7 +244,7 @@ impl<'a> Linearised<'a> {
 
     fn factorised(&self, laws: Vec<Law>) -> System {
         let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.block.clone()).collect();
-        let matrix = Factored::new(&self.finish.matrix(&laws, &unknowns, 0.0));
+        let matrix = Factored::new(self.finish.matrix(&laws, &unknowns, 0.0));
         System {
             laws,
             unknowns,

@@ -8,6 +8,7 @@ use crate::error::Error;
 
 /// Settings of the outer loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Settings {
     /// Largest residual that counts as solved.
     pub tolerance: f64,
@@ -57,6 +58,20 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The settings with a tolerance of their own, `1e-15 <= tolerance <= 1e-2`.
+    #[must_use]
+    pub fn with_tolerance(mut self, tolerance: f64) -> Self {
+        self.tolerance = tolerance;
+        self
+    }
+
+    /// The settings with another largest number of sweeps, at least 1.
+    #[must_use]
+    pub fn with_max_sweeps(mut self, max_sweeps: usize) -> Self {
+        self.max_sweeps = max_sweeps;
+        self
+    }
+
     /// Checks the ranges.
     ///
     /// # Errors

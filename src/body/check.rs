@@ -394,13 +394,7 @@ mod tests {
             |b| b.materials[0].young = f64::NAN,
             &["materials[0].young"],
         );
-        let support = Support {
-            place: "supports[0]".to_owned(),
-            nodes: vec![0],
-            displacement: [None, Some(f64::INFINITY), None],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        };
+        let support = Support::new("supports[0]", vec![0], [None, Some(f64::INFINITY), None]);
         assert_says(
             kind,
             |b| b.supports = vec![support.clone()],

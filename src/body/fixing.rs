@@ -195,13 +195,8 @@ mod tests {
                 for &dof in dofs {
                     let mut displacement = [None; 3];
                     displacement[dof % axes] = Some(0.0);
-                    body.supports.push(Support {
-                        place: "pin".to_owned(),
-                        nodes: vec![dof / axes],
-                        displacement,
-                        offsets: Vec::new(),
-                        axes: Vec::new(),
-                    });
+                    body.supports
+                        .push(Support::new("pin", vec![dof / axes], displacement));
                 }
                 let u = solve(&body);
                 (0..axes)
@@ -234,13 +229,7 @@ mod tests {
     #[test]
     fn a_hinged_body_is_pinned_once_more_and_far_from_its_hinge() {
         let mut body = block(CellKind::Quad4);
-        body.supports = vec![Support {
-            place: "hinge".to_owned(),
-            nodes: vec![0],
-            displacement: [Some(0.0), Some(0.0), None],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        }];
+        body.supports = vec![Support::new("hinge", vec![0], [Some(0.0), Some(0.0), None])];
         let (_, chosen) = pins(&body);
         // The hinge is at (0, 0); the far side is x = 2, which moves most along y.
         let node = chosen[0] / 2;

@@ -83,6 +83,17 @@ impl Foundation {
         }
     }
 
+    /// Lists of nodes that a spring joins.
+    pub(super) fn joined(&self) -> impl Iterator<Item = &[usize]> + Clone {
+        let (nodes, facets) = match &self.on {
+            Ground::Nodes(nodes) => (nodes.as_slice(), [].as_slice()),
+            Ground::Area(facets) => ([].as_slice(), facets.as_slice()),
+        };
+        nodes
+            .chunks(1)
+            .chain(facets.iter().map(|facet| facet.nodes.as_slice()))
+    }
+
     /// Every node with a direction that a spring resists there.
     pub(super) fn held_directions(&self, body: &Body) -> Vec<(usize, Vector3<f64>)> {
         let mut held = Vec::new();

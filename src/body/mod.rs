@@ -17,6 +17,7 @@
 //! (B15) K = K_uu − K_uα K_αα⁻¹ K_αu                cells that bend as beams do           modes.rs
 //! (B16) Σ a_k u_k = b                             what depends on what             tie.rs
 //! (B17) u = T q + E b                             what is left of the unknowns     dependence.rs
+//! (B18) ∫ (σ̂ − σ) : C⁻¹ : (σ̂ − σ) dV               a bound of how wrong it is     equilibrated/
 //! ```
 //!
 //! In order: the check of a body, its supports and the motions that they leave free, then stiffness and load
@@ -36,10 +37,12 @@ mod boundary;
 mod cell;
 mod check;
 mod condensed_cell;
+mod cut;
 mod dependence;
 mod dilatation;
 mod element;
 mod entries;
+mod equilibrated;
 mod extremes;
 mod facet;
 mod fixing;
@@ -87,6 +90,7 @@ pub(crate) use facet::FacetGeometry;
 pub(crate) use facet::{FacetPoint, FacetReference, around};
 pub(crate) use kinds::MOST_FACET_NODES;
 
+pub(crate) use equilibrated::stress_error_bound;
 pub(crate) use fixing::fixing_dofs;
 pub(crate) use foundation::foundation_forces;
 pub use foundation::{Foundation, Ground};
@@ -98,7 +102,7 @@ pub use orthotropic::{MaterialAxes, Orthotropic};
 pub(crate) use recovery::stress_recovery;
 pub(crate) use rigid_modes::{RigidMode, free_modes};
 pub use spread::Wrench;
-pub(crate) use stiffness::stiffness;
+pub(crate) use stiffness::{part_of_stiffness, stiffness};
 pub(crate) use stress::{cell_strain, cell_stress, nodal_stress, principal, von_mises};
 pub use structured::{box_mesh, graded, mixed_box, rectangle};
 pub(crate) use support::prescribed;
@@ -138,6 +142,7 @@ pub enum Formulation {
 
 /// A linear elastic material.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Material {
     /// Young's modulus `E > 0`, in pascal.
     pub young: f64,
@@ -153,6 +158,7 @@ pub struct Material {
 
 /// Nodes whose displacement is given, component by component.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Support {
     /// Where the scene says so, for messages, such as `bodies[0].supports[1]`.
     pub place: String,
@@ -164,6 +170,20 @@ pub struct Support {
     pub offsets: Vec<[f64; 3]>,
     /// Orthonormal directions of the components per node; none at all where they are the global axes.
     pub axes: Vec<[[f64; 3]; 3]>,
+}
+
+impl Support {
+    /// A support of nodes along the global axes, with the components of their displacement that it gives, in metre.
+    #[must_use]
+    pub fn new(place: &str, nodes: Vec<usize>, displacement: [Option<f64>; 3]) -> Self {
+        Self {
+            place: place.to_owned(),
+            nodes,
+            displacement,
+            offsets: Vec::new(),
+            axes: Vec::new(),
+        }
+    }
 }
 
 /// A given force on the body.
@@ -263,6 +283,7 @@ pub enum Load {
 
 /// An elastic body: mesh, material, supports and loads.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Body {
     /// Name for messages and reports.
     pub name: String,
@@ -287,6 +308,23 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body on a mesh, every cell of the first of its `materials`, with nothing on it yet.
+    #[must_use]
+    pub fn new(name: &str, mesh: Mesh, model: Model, materials: Vec<Material>) -> Self {
+        Self {
+            name: name.to_owned(),
+            material_of_cell: vec![0; mesh.cell_count()],
+            mesh,
+            model,
+            materials,
+            supports: Vec::new(),
+            loads: Vec::new(),
+            foundation: Vec::new(),
+            formulation: Formulation::Standard,
+            ties: Vec::new(),
+        }
+    }
+
     /// Stiffness matrix without supports (B3), in N/m: symmetric, both triangles, rows
     /// `dimension · node + axis` with ascending columns.
     ///

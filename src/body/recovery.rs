@@ -32,6 +32,33 @@ pub(crate) struct StressRecovery {
 /// `displacement` in metre, entry `dimension · node + axis`.
 #[must_use]
 pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecovery {
+    let (centres, smooth) = recovered_stress(body, displacement);
+    let prestress = Prestress::new(body, &body.loads);
+    let dilatations = dilatations(body, displacement);
+    let mut sum = StressRecovery::default();
+    for (index, smooth) in smooth.iter().enumerate() {
+        let cell = body.mesh.cell(index);
+        let material = &body.materials[body.material_of_cell[index]];
+        let constant = cell.kind.has_constant_strain() && body.model != Model::Axisymmetric;
+        let of_cell = if !constant {
+            let mean = (index, dilatations[index]);
+            by_points(body, displacement, prestress.as_ref(), mean, smooth)
+        } else {
+            let centre = body.mesh.centroid(index).into();
+            let square = |stress: &[f64; 6]| material.energy(centre, stress);
+            in_simplex(square, body.mesh.volume(index), &centres[index], smooth)
+        };
+        sum.error += body.model.depth() * of_cell.error;
+        sum.energy += body.model.depth() * of_cell.energy;
+    }
+    sum
+}
+
+/// Stress at the centre of every cell, and σ* at the nodes of each.
+pub(super) fn recovered_stress(
+    body: &Body,
+    displacement: &[f64],
+) -> (Vec<[f64; 6]>, Vec<Vec<[f64; 6]>>) {
     let centres = cell_stress(body, displacement);
     let prestress = Prestress::new(body, &body.loads);
     let dilatations = dilatations(body, displacement);
@@ -41,7 +68,7 @@ pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecove
     let mut by_material: Vec<usize> = (0..centres.len()).collect();
     by_material.sort_by_key(|&cell| body.material_of_cell[cell]);
     let mut recovered = vec![([0.0; 6], 0.0); body.mesh.nodes.len()];
-    let mut sum = StressRecovery::default();
+    let mut smooth = vec![Vec::new(); centres.len()];
     let same = |a: &usize, b: &usize| body.material_of_cell[*a] == body.material_of_cell[*b];
     for cells in by_material.chunk_by(same) {
         let at_nodes = |cell: usize| {
@@ -54,23 +81,11 @@ pub(crate) fn stress_recovery(body: &Body, displacement: &[f64]) -> StressRecove
         };
         recover(body, cells, at_nodes, &volumes, &mut recovered);
         for &index in cells {
-            let cell = body.mesh.cell(index);
-            let smooth: Vec<_> = cell.nodes.iter().map(|node| recovered[*node].0).collect();
-            let material = &body.materials[body.material_of_cell[index]];
-            let constant = cell.kind.has_constant_strain() && body.model != Model::Axisymmetric;
-            let of_cell = if !constant {
-                let mean = (index, dilatations[index]);
-                by_points(body, displacement, prestress.as_ref(), mean, &smooth)
-            } else {
-                let centre = body.mesh.centroid(index).into();
-                let square = |stress: &[f64; 6]| material.energy(centre, stress);
-                in_simplex(square, volumes[index], &centres[index], &smooth)
-            };
-            sum.error += body.model.depth() * of_cell.error;
-            sum.energy += body.model.depth() * of_cell.energy;
+            let nodes = body.mesh.cell(index).nodes.iter();
+            smooth[index] = nodes.map(|node| recovered[*node].0).collect();
         }
     }
-    sum
+    (centres, smooth)
 }
 
 /// `σ*_a` at the nodes of some cells, with the volume around; other nodes keep what they have.

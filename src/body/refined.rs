@@ -3,6 +3,8 @@
 //! ```text
 //! tensor    child o of 2ᵈ, o_j = ±1:    ξ = (o + η)/2                  η: in the child, ξ: in its parent
 //! simplex   corners and middles of edges: Bey, Computing 55 (1995) 355–378, along the shortest diagonal
+//! prism     the parts of its triangle, in both halves of its height
+//! pyramid   one at every corner, one on its head between these, and four tetrahedra beside it
 //! ```
 //!
 //! A new node lies where the shape functions of its parent put it: curved cells stay curved. Old
@@ -13,12 +15,11 @@ use std::collections::HashMap;
 use super::kinds::facet_reference;
 use super::reference::{Family, Reference};
 use super::{CellKind, Facet, Group, Mesh};
-use crate::error::Error;
-
 /// Corner nodes with their shares, in parts of [`SHARES`]: the same for a point of an edge or face from either side.
 type Place = Vec<(usize, u32)>;
 
-/// Children lie at quarters of their parent: shares are multiples of 4⁻³.
+/// Children lie at quarters of their parent: shares are multiples of 4⁻³, but within pyramids, where no other cell
+/// has them.
 const SHARES: f64 = 64.0;
 
 /// Corners of the parts of a triangle, as the parent's nodes are numbered with all middles.
@@ -35,45 +36,33 @@ const DIAGONALS: [([usize; 2], [usize; 4]); 3] = [
 ];
 
 impl Mesh {
-    /// The mesh with every cell split into two (per axis): four in 2D, eight in 3D.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::NotAccepted`] for prisms and pyramids.
-    pub fn refined(&self) -> Result<Self, Error> {
-        let whole = |kind: CellKind| {
-            matches!(kind.reference().family, Family::Prism | Family::Pyramid).then_some(kind)
-        };
-        if let Some(kind) = self.cells().find_map(|cell| whole(cell.kind)) {
-            return Err(Error::NotAccepted {
-                place: "cells".to_owned(),
-                found: format!("{kind:?}, which is not split into its like"),
-                accepted: "triangles, quadrilaterals, tetrahedra, hexahedra; or a family of meshes"
-                    .to_owned(),
-            });
-        }
+    /// The mesh with every cell split into two (per axis): four in 2D, eight in 3D, and of a pyramid six and four
+    /// tetrahedra.
+    #[must_use]
+    pub fn refined(&self) -> Self {
         let mut refinement = Refinement::new(self);
         for cell in self.cells() {
+            refinement.first.push(refinement.mesh.cell_count());
             for nodes in refinement.parts(cell.kind.reference(), cell.nodes) {
-                refinement.mesh.push_cell(cell.kind, &nodes);
+                refinement
+                    .mesh
+                    .push_cell(kind_of_part(cell.kind, nodes.len()), &nodes);
             }
         }
+        refinement.first.push(refinement.mesh.cell_count());
         let groups = self.groups.iter();
         let groups = groups.map(|(name, group)| (name.clone(), refinement.group(group)));
         let groups = groups.collect();
         let mut mesh = refinement.mesh;
         mesh.groups = groups;
-        Ok(mesh)
-    }
-
-    /// Number of parts of a cell.
-    pub(crate) fn parts_of_a_cell(&self) -> usize {
-        1 << self.dimension
+        mesh
     }
 }
 
 struct Refinement {
     mesh: Mesh,
+    /// First part of every cell, and their number.
+    first: Vec<usize>,
     known: HashMap<Place, usize>,
 }
 
@@ -88,7 +77,11 @@ impl Refinement {
             }
         }
         let mesh = Mesh::new(mesh.dimension, mesh.nodes.clone());
-        Self { mesh, known }
+        Self {
+            mesh,
+            first: Vec::new(),
+            known,
+        }
     }
 
     /// Nodes of the parts of a cell or facet.
@@ -96,8 +89,8 @@ impl Refinement {
         let parts = match reference.family {
             Family::Simplex => self.simplices(reference, nodes),
             Family::Tensor | Family::Serendipity => boxes(reference),
-            // Refused before.
-            Family::Prism | Family::Pyramid => Vec::new(),
+            Family::Prism => prisms(reference),
+            Family::Pyramid => pyramids(reference),
         };
         let parts = parts.iter();
         parts
@@ -115,19 +108,8 @@ impl Refinement {
             2 => CellKind::Tri6.reference().nodes,
             _ => CellKind::Tet10.reference().nodes,
         };
-        let part = |corners: &[usize]| {
-            let linear = linear(reference);
-            let inside = reference.nodes.iter().map(|at| {
-                let mut position = [0.0; 3];
-                for (share, corner) in linear.shape(*at).iter().zip(corners) {
-                    for axis in 0..3 {
-                        position[axis] += share * middles[*corner][axis];
-                    }
-                }
-                position
-            });
-            inside.collect::<Vec<_>>()
-        };
+        let part =
+            |corners: &[usize]| between(reference, corners.iter().map(|corner| middles[*corner]));
         if reference.dimension == 2 {
             return TRIANGLE.iter().map(|corners| part(corners)).collect();
         }
@@ -177,10 +159,9 @@ impl Refinement {
     }
 
     fn group(&mut self, group: &Group) -> Group {
-        let parts = self.mesh.parts_of_a_cell();
         match group {
             Group::Cells(cells) => {
-                let of = |cell: &usize| parts * cell..parts * (cell + 1);
+                let of = |cell: &usize| self.first[*cell]..self.first[cell + 1];
                 Group::Cells(cells.iter().flat_map(of).collect())
             }
             Group::Facets(facets) => {
@@ -219,6 +200,71 @@ fn boxes(reference: &Reference) -> Vec<Vec<[f64; 3]>> {
         .collect()
 }
 
+/// Positions of the nodes of a simplex with these corners.
+fn between(reference: &Reference, corners: impl Iterator<Item = [f64; 3]>) -> Vec<[f64; 3]> {
+    let corners: Vec<[f64; 3]> = corners.collect();
+    let nodes = reference.nodes.iter();
+    nodes
+        .map(|at| {
+            let shares = linear(reference).shape(*at);
+            std::array::from_fn(|axis| {
+                let terms = shares.iter().zip(&corners);
+                terms.map(|(share, corner)| share * corner[axis]).sum()
+            })
+        })
+        .collect()
+}
+
+/// The same of every part of a prism.
+fn prisms(reference: &Reference) -> Vec<Vec<[f64; 3]>> {
+    let middles = CellKind::Tri6.reference().nodes;
+    let parts = [-0.5, 0.5].into_iter().flat_map(|height| {
+        TRIANGLE.iter().map(move |corners| {
+            let [a, b, c] = corners.map(|corner| middles[corner]);
+            let nodes = reference.nodes.iter();
+            let node = |[x, y, z]: &[f64; 3]| {
+                let at = |axis: usize| (1.0 - x - y) * a[axis] + x * b[axis] + y * c[axis];
+                [at(0), at(1), height + 0.5 * z]
+            };
+            nodes.map(node).collect()
+        })
+    });
+    parts.collect()
+}
+
+/// The same of every part of a pyramid; those with fewer nodes are tetrahedra.
+fn pyramids(reference: &Reference) -> Vec<Vec<[f64; 3]>> {
+    let half = [0.5; 3];
+    let corners = reference.nodes[..4].iter();
+    let corners = corners.map(|[a, b, _]| ([0.5 * a, 0.5 * b, 0.0], half));
+    let (top, below) = ([0.0, 0.0, 0.5], [0.5, -0.5, -0.5]);
+    let placed = corners.chain([(top, half), (top, below)]);
+    let parts = placed.map(|(at, by)| {
+        let nodes = reference.nodes.iter();
+        let node = |xi: &[f64; 3]| std::array::from_fn(|k| at[k] + by[k] * xi[k]);
+        nodes.map(node).collect()
+    });
+    let tetrahedron = match reference.is_linear() {
+        true => CellKind::Tet4.reference(),
+        false => CellKind::Tet10.reference(),
+    };
+    let beside = [[0.0, -1.0], [1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]].map(|[x, y]| {
+        let up = |side: f64| [0.5 * (x - side * y), 0.5 * (y + side * x), 0.5];
+        let corners = [[x, y, 0.0], [0.0; 3], up(-1.0), up(1.0)];
+        between(tetrahedron, corners.into_iter())
+    });
+    parts.chain(beside).collect()
+}
+
+/// A part with so many nodes: of the kind of its cell, or a tetrahedron of a pyramid.
+fn kind_of_part(kind: CellKind, nodes: usize) -> CellKind {
+    match kind.is_linear() {
+        _ if nodes == kind.node_count() => kind,
+        true => CellKind::Tet4,
+        false => CellKind::Tet10,
+    }
+}
+
 /// Shares of the corners in a position; those without one are left out.
 fn place(reference: &Reference, nodes: &[usize], at: [f64; 3]) -> Place {
     let shares = linear(reference).shape(at);
@@ -239,6 +285,8 @@ fn place(reference: &Reference, nodes: &[usize], at: [f64; 3]) -> Place {
 fn linear(reference: &Reference) -> &'static Reference {
     match (reference.dimension, reference.corners) {
         (3, 4) => CellKind::Tet4.reference(),
+        (3, 5) => CellKind::Pyramid5.reference(),
+        (3, 6) => CellKind::Prism6.reference(),
         (3, _) => CellKind::Hex8.reference(),
         _ => super::kinds::linear_facet(reference),
     }
@@ -265,9 +313,7 @@ mod tests {
 
     #[test]
     fn the_parts_of_all_kinds_of_cells_fill_them_and_join() {
-        let split =
-            |kind: &CellKind| !matches!(kind.reference().family, Family::Prism | Family::Pyramid);
-        for kind in CellKind::all().filter(split) {
+        for kind in CellKind::all() {
             let mut body = distorted(kind);
             let right = facets(&body.mesh, "right");
             body.mesh
@@ -286,15 +332,19 @@ mod tests {
             };
             let side = area(&body, "side");
             let nodes = body.mesh.nodes.clone();
-            body.mesh = body.mesh.refined().unwrap();
-            let parts = 1 << kind.dimension();
+            body.mesh = body.mesh.refined();
+            let parts = match kind.reference().family {
+                Family::Pyramid => 10,
+                _ => 1 << kind.dimension(),
+            };
             assert_eq!(body.mesh.cell_count(), parts * count, "{kind:?}");
             // Nodes that were not joined would leave facets open inside.
             let open = body.mesh.boundary_facets().len();
-            assert_eq!(open, outside * parts / 2, "{kind:?}");
+            assert_eq!(open, outside << (kind.dimension() - 1), "{kind:?}");
             assert_eq!(body.mesh.nodes[..nodes.len()], nodes, "{kind:?}");
             body.material_of_cell = vec![0; body.mesh.cell_count()];
-            assert!((volume(&body) / before - 1.0).abs() < 1e-13, "{kind:?}");
+            let off = volume(&body) / before - 1.0;
+            assert!(off.abs() < 1e-13, "{kind:?} {off:e}");
             // Warped facets have areas of their own: those of the parts sum up to another quadrature.
             let rule = if kind.is_linear() { 1e-2 } else { 1e-3 };
             assert!((area(&body, "side") / side - 1.0).abs() < rule, "{kind:?}");

@@ -1,6 +1,6 @@
 //! Parts of a mesh that share nodes get nodes of their own, so that they can touch each other.
 
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::mesh::{Facet, Group, Mesh};
 use crate::error::Error;
@@ -36,62 +36,55 @@ impl Mesh {
             );
         };
         let own: BTreeSet<usize> = cells.iter().copied().collect();
-        let added = [format!("{name}.own"), format!("{name}.other")];
-        if let Some(known) = added.iter().find(|name| self.groups.contains_key(*name)) {
-            return refuse(format!("a mesh with a group `{known}`"), "another name");
-        }
-        let twin = self.double_nodes(&own);
-        if twin.is_empty() {
+        let rest = (0..self.cell_count()).filter(|cell| !own.contains(cell));
+        let rest: BTreeSet<usize> = rest.collect();
+        let shared = self.shared_nodes(&own, &rest);
+        if shared.is_empty() {
             let accepted = "cells that share nodes with others";
             return refuse("cells that share no node with others".to_owned(), accepted);
         }
-        let [inside, outside] = [true, false].map(|side| {
-            let cells = (0..self.cell_count()).filter(|cell| own.contains(cell) == side);
-            self.facets_by_nodes(cells)
-        });
-        let moved = |facet: &Facet| Facet {
-            nodes: facet
-                .nodes
-                .iter()
-                .map(|node| twin_of(&twin, *node))
-                .collect(),
-        };
-        for cell in own {
+        self.part_from(name, [&own, &rest], &shared)
+            .map_err(|error| error.within(format_args!("split `{name}`")))
+    }
+
+    /// Gives cells nodes of their own in place of those that they share with others, and adds the groups of
+    /// the facets that were shared: `NAME.own` and `NAME.other`.
+    pub(super) fn part_from(
+        &mut self,
+        name: &str,
+        [own, other]: [&BTreeSet<usize>; 2],
+        shared: &BTreeSet<usize>,
+    ) -> Result<(), Error> {
+        let added = [format!("{name}.own"), format!("{name}.other")];
+        if let Some(known) = added.iter().find(|name| self.groups.contains_key(*name)) {
+            return Err(Error::NotAccepted {
+                place: "groups".to_owned(),
+                found: format!("a mesh with a group `{known}`"),
+                accepted: "another name".to_owned(),
+            });
+        }
+        let mut twin = HashMap::new();
+        for &node in shared {
+            twin.insert(node, self.nodes.len());
+            self.nodes.push(self.nodes[node]);
+        }
+        let [inside, outside] = [own, other].map(|cells| self.facets_by_nodes(cells));
+        for &cell in own {
             let nodes = self.cell(cell).nodes.iter();
             let nodes: Vec<usize> = nodes.map(|node| twin_of(&twin, *node)).collect();
             self.renumber_cell(cell, &nodes);
         }
-        for group in self.groups.values_mut() {
-            match group {
-                Group::Cells(_) => {}
-                Group::Facets(facets) => {
-                    let only_own = |facet: &Facet| {
-                        let key = sorted(facet);
-                        inside.contains_key(&key) && !outside.contains_key(&key)
-                    };
-                    facets
-                        .iter_mut()
-                        .filter(|facet| only_own(facet))
-                        .for_each(|facet| *facet = moved(facet));
-                }
-                Group::Edges(edges) => {
-                    let cut = |edge: &&Vec<usize>| edge.iter().any(|node| twin.contains_key(node));
-                    let moved =
-                        |edge: &Vec<usize>| edge.iter().map(|n| twin_of(&twin, *n)).collect();
-                    let more: Vec<Vec<usize>> = edges.iter().filter(cut).map(moved).collect();
-                    edges.extend(more);
-                }
-                Group::Points(points) => {
-                    let more = points.iter().filter_map(|point| twin.get(point).copied());
-                    points.extend(more.collect::<Vec<_>>());
-                }
-            }
-        }
+        let only_own = |facet: &Facet| {
+            let key = sorted(facet);
+            inside.contains_key(&key) && !outside.contains_key(&key)
+        };
+        let groups = self.groups.values_mut();
+        groups.for_each(|group| follow(group, &twin, only_own));
         let shared = inside
             .iter()
             .filter_map(|(key, facet)| Some((facet, outside.get(key)?)));
         let (of_own, of_other) = shared
-            .map(|(own, other)| (moved(own), other.clone()))
+            .map(|(own, other)| (moved(&twin, own), other.clone()))
             .unzip();
         let [own, other] = added;
         self.groups.insert(own, Group::Facets(of_own));
@@ -99,27 +92,22 @@ impl Mesh {
         Ok(())
     }
 
-    /// Doubles the nodes that some cells share with all others; the doubles are not in use yet.
-    fn double_nodes(&mut self, own: &BTreeSet<usize>) -> HashMap<usize, usize> {
+    /// Nodes of some cells that others have as well.
+    pub(super) fn shared_nodes(
+        &self,
+        own: &BTreeSet<usize>,
+        other: &BTreeSet<usize>,
+    ) -> BTreeSet<usize> {
         let mut on_other = vec![false; self.nodes.len()];
-        for (at, cell) in self.cells().enumerate() {
-            if !own.contains(&at) {
-                cell.nodes.iter().for_each(|&node| on_other[node] = true);
-            }
-        }
+        let nodes = other.iter().flat_map(|&cell| self.cell(cell).nodes);
+        nodes.for_each(|&node| on_other[node] = true);
         let nodes = own.iter().flat_map(|&cell| self.cell(cell).nodes);
-        let shared: BTreeSet<usize> = nodes.copied().filter(|&node| on_other[node]).collect();
-        let mut twin = HashMap::new();
-        for node in shared {
-            twin.insert(node, self.nodes.len());
-            self.nodes.push(self.nodes[node]);
-        }
-        twin
+        nodes.copied().filter(|&node| on_other[node]).collect()
     }
 
     /// Facets of cells, by their nodes in rising order.
-    fn facets_by_nodes(&self, cells: impl Iterator<Item = usize>) -> HashMap<Vec<usize>, Facet> {
-        let facets = cells.flat_map(|cell| {
+    fn facets_by_nodes(&self, cells: &BTreeSet<usize>) -> BTreeMap<Vec<usize>, Facet> {
+        let facets = cells.iter().flat_map(|&cell| {
             let cell = self.cell(cell);
             let facets = cell.kind.facets().iter();
             facets.map(move |local| Facet {
@@ -127,6 +115,34 @@ impl Mesh {
             })
         });
         facets.map(|facet| (sorted(&facet), facet)).collect()
+    }
+}
+
+/// Members of a group on cells that got nodes of their own.
+fn follow(group: &mut Group, twin: &HashMap<usize, usize>, only_own: impl Fn(&Facet) -> bool) {
+    match group {
+        Group::Cells(_) => {}
+        Group::Facets(facets) => facets
+            .iter_mut()
+            .filter(|facet| only_own(facet))
+            .for_each(|facet| *facet = moved(twin, facet)),
+        Group::Edges(edges) => {
+            let cut = |edge: &&Vec<usize>| edge.iter().any(|node| twin.contains_key(node));
+            let moved = |edge: &Vec<usize>| edge.iter().map(|n| twin_of(twin, *n)).collect();
+            let more: Vec<Vec<usize>> = edges.iter().filter(cut).map(moved).collect();
+            edges.extend(more);
+        }
+        Group::Points(points) => {
+            let more = points.iter().filter_map(|point| twin.get(point).copied());
+            points.extend(more.collect::<Vec<_>>());
+        }
+    }
+}
+
+fn moved(twin: &HashMap<usize, usize>, facet: &Facet) -> Facet {
+    let nodes = facet.nodes.iter().map(|node| twin_of(twin, *node));
+    Facet {
+        nodes: nodes.collect(),
     }
 }
 

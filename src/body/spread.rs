@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::affine::fine_points;
 use super::load::NodalForces;
-use super::{Facet, FacetPoint, Model};
+use super::{Body, Facet, Model};
 
 /// A force and a moment.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -39,15 +39,11 @@ impl Wrench {
 
 impl NodalForces<'_> {
     pub(super) fn add_spread(&mut self, facets: &[Facet], wrench: &Wrench) {
-        let points = facets.iter().map(|facet| fine_points(self.body, facet));
-        let points: Vec<Vec<FacetPoint>> = points.collect();
-        let areas = points.iter().flatten();
-        let areas = areas.map(|point| (point.position, point.vector.norm()));
-        let Some(spread) = Spread::new(areas, wrench, self.body.model) else {
+        let Some(spread) = spread_on(self.body, facets, wrench) else {
             return;
         };
-        for (facet, points) in facets.iter().zip(&points) {
-            for point in points {
+        for facet in facets {
+            for point in fine_points(self.body, facet) {
                 let traction = spread.traction(point.position);
                 for (node, shape) in facet.nodes.iter().zip(&point.shape) {
                     self.add(*node, traction.into(), shape * point.vector.norm());
@@ -71,8 +67,17 @@ impl NodalForces<'_> {
     }
 }
 
+/// The tractions of a wrench on facets of a body; none if these have no area.
+pub(super) fn spread_on(body: &Body, facets: &[Facet], wrench: &Wrench) -> Option<Spread> {
+    let points = facets.iter().flat_map(|facet| fine_points(body, facet));
+    let areas: Vec<_> = points
+        .map(|point| (point.position, point.vector.norm()))
+        .collect();
+    Spread::new(areas.iter().copied(), wrench, body.model)
+}
+
 /// Tractions as an affine function of position.
-struct Spread {
+pub(super) struct Spread {
     centre: Vector3<f64>,
     mean: Vector3<f64>,
     turning: Vector3<f64>,
@@ -120,7 +125,7 @@ impl Spread {
         })
     }
 
-    fn traction(&self, position: Vector3<f64>) -> Vector3<f64> {
+    pub(super) fn traction(&self, position: Vector3<f64>) -> Vector3<f64> {
         self.mean + self.turning.cross(&(position - self.centre))
     }
 }

@@ -18,7 +18,7 @@ use super::Body;
 use super::condensed_cell::Condensed;
 use super::dilatation::Patches;
 use super::element::Element;
-use super::foundation::add_foundation;
+use super::foundation::{Foundation, add_foundation};
 use super::sparsity::BlockMatrix;
 
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
@@ -27,16 +27,29 @@ use super::sparsity::BlockMatrix;
 /// The body has passed [`check`](super::check()).
 #[must_use]
 pub(crate) fn stiffness(body: &Body) -> sprs::CsMat<f64> {
+    part_of_stiffness(body, 0, 1)
+}
+
+/// What one of several runs of cells adds to it; the parts of all runs add up to the whole. Springs to the
+/// ground are in the first.
+#[must_use]
+pub(crate) fn part_of_stiffness(body: &Body, part: usize, parts: usize) -> sprs::CsMat<f64> {
     let mesh = &body.mesh;
     let patches = Patches::new(body);
-    let lists = (0..mesh.cell_count()).map(|cell| mesh.cell(cell).nodes);
-    let lists = lists.chain(patches.iter().map(|patch| patch.nodes));
+    let of_part = |count: usize| count * part / parts..count * (part + 1) / parts;
+    let cells = of_part(mesh.cell_count());
+    let patched = of_part(patches.iter().count());
+    let patches = || patches.iter().skip(patched.start).take(patched.len());
+    let springs = body.foundation.iter().filter(|_| part == 0);
+    let lists = cells.clone().map(|cell| mesh.cell(cell).nodes);
+    let lists = lists.chain(patches().map(|patch| patch.nodes));
+    let lists = lists.chain(springs.flat_map(Foundation::joined));
     let mut matrix = BlockMatrix::new(mesh.dimension, mesh.nodes.len(), lists);
-    for cell in 0..mesh.cell_count() {
+    for cell in cells {
         add_cell(body, cell, &mut matrix);
     }
     let depth = body.model.depth();
-    for patch in patches.iter() {
+    for patch in patches() {
         for (a, (row, b_a)) in patch.nodes.iter().zip(patch.gradients).enumerate() {
             for (column, b_b) in patch.nodes.iter().zip(patch.gradients).take(a + 1) {
                 matrix.add(
@@ -47,7 +60,9 @@ pub(crate) fn stiffness(body: &Body) -> sprs::CsMat<f64> {
             }
         }
     }
-    add_foundation(body, &mut matrix);
+    if part == 0 {
+        add_foundation(body, &mut matrix);
+    }
     matrix.into_rows()
 }
 

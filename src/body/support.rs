@@ -119,13 +119,7 @@ mod tests {
     use crate::body::tests::samples::block;
 
     fn support(place: &str, nodes: &[usize], displacement: [Option<f64>; 3]) -> Support {
-        Support {
-            place: place.to_owned(),
-            nodes: nodes.to_vec(),
-            displacement,
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        }
+        Support::new(place, nodes.to_vec(), displacement)
     }
 
     #[test]

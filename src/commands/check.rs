@@ -47,12 +47,12 @@ pub(crate) fn check(arguments: &Check) -> Result<ExitCode, Box<dyn Error>> {
         }
     }
     for (at, contact) in mechanics.contacts.iter().enumerate() {
-        let stated = scene.contacts.get(at).map(|stated| stated.group.as_str());
+        let stated = scene.contacts.get(at).map(|stated| stated.group.join(", "));
         let contacts = surface.nodes.iter().filter(|node| node.pair == at).count();
         writeln!(
             out,
             "contact `{}`: {} facets, {}, {contacts} contacts",
-            stated.unwrap_or(&contact.place),
+            stated.as_deref().unwrap_or(&contact.place),
             contact.facets.len(),
             match contact.law.words(contact.friction) {
                 Some(law) => format!("law {law}"),

@@ -13,6 +13,7 @@ mod man;
 mod new;
 mod outputs;
 mod progress;
+mod ranks;
 mod scene_file;
 mod schema;
 mod solve;

@@ -122,6 +122,9 @@ impl Watch {
                 false => format!("{} contacts", progress.contacts),
             });
         }
+        if progress.rank_bytes > 0.0 {
+            parts.push(format!("{:.2} GB on a rank", progress.rank_bytes * 1e-9));
+        }
         let long = self.done.iter().filter(|(_, time)| *time >= SHORT);
         parts.extend(long.map(|(stage, time)| told(*stage, *time)));
         let mut current = told(self.stage, now - self.since);
@@ -151,6 +154,7 @@ mod tests {
             stage: Stage::Assembly,
             contacts: 0,
             dense_bytes: 0,
+            rank_bytes: 0.0,
             sweeps: 0,
             residual: 0.0,
         };
@@ -162,11 +166,12 @@ mod tests {
             "4800 contacts, 5.0 GB, assembly 2.0 s, factorisation 0.0 s"
         );
         (progress.stage, progress.sweeps, progress.residual) = (Stage::Sweeps, 3, 2e-5);
+        progress.rank_bytes = 2.5e8;
         watch.words = "step 2 of 9".to_owned();
         watch.line(after(50), &progress);
         assert_eq!(
             watch.line(after(60), &progress).unwrap(),
-            "step 2 of 9, 4800 contacts, 5.0 GB, assembly 2.0 s, factorisation 3.0 s, \
+            "step 2 of 9, 4800 contacts, 5.0 GB, 0.25 GB on a rank, assembly 2.0 s, factorisation 3.0 s, \
              sweeps 1.0 s (3, residual 2e-5)"
         );
     }

@@ -25,8 +25,22 @@ pub(super) fn read_scene(path: &Path) -> Result<Scene, Box<dyn Error>> {
     }
     Ok(match is_deck(path) {
         true => tell(Deck::from_file(path)?).scene,
-        false => Scene::from_file(path)?,
+        false => Scene::from_file(path).map_err(|error| elsewhere(path, error))?,
     })
+}
+
+/// A scene of half-spaces has a command of its own; other mistakes stay what they are.
+fn elsewhere(path: &Path, error: dpana::Error) -> Box<dyn Error> {
+    match HalfSpaceScene::is_in(path) {
+        true => {
+            let name = path.display();
+            format!(
+                "{name}: `half_space`: a scene of half-spaces, which have no mesh; expected `dpana half-space {name}`"
+            )
+            .into()
+        }
+        false => error.into(),
+    }
 }
 
 /// Reads a scene of half-spaces from a file, if it is one.

@@ -18,6 +18,8 @@ use super::accuracy::part;
 use super::interrupt;
 use super::outputs::{check_file, check_output, is_standard, say, write_output, write_table};
 use super::progress::Progress;
+use super::ranks;
+use super::ranks::EngineName;
 use super::scene_file::read_scene;
 
 #[derive(Args, Clone)]
@@ -78,6 +80,10 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
+    /// Bound the error of the stress of plane and axisymmetric bodies, by a stress that is in equilibrium at every
+    /// point, which takes a small problem for each cell.
+    #[arg(long)]
+    bound: bool,
     /// Print the whole report on standard output, in JSON, and no summary.
     #[arg(long, conflicts_with = "report")]
     json: bool,
@@ -110,6 +116,10 @@ pub(crate) struct Solve {
     /// Memory that `--accuracy` may fill, in GB; three quarters of what is free when left out.
     #[arg(long, value_name = "GB", requires = "accuracy")]
     memory: Option<f64>,
+    /// What factorises the bodies: `mumps` divides them among the processes of `mpirun -n N dpana solve …`, in a
+    /// build with the feature `mumps`. Every process reads the scene; the first alone solves and writes.
+    #[arg(long, value_enum, default_value_t = EngineName::Faer, hide_default_value = true)]
+    engine: EngineName,
     /// Print no summary and no progress: the exit status says whether the state is certified.
     #[arg(short, long)]
     quiet: bool,
@@ -120,6 +130,19 @@ pub(crate) struct Solve {
 }
 
 pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
+    if matches!(arguments.engine, EngineName::Mumps) && arguments.accuracy.is_some() {
+        return Err(
+            "--engine mumps: --accuracy, whose meshes the other ranks do not have; expected one \
+                    of the two"
+                .into(),
+        );
+    }
+    ranks::run(arguments.engine, &arguments.scene, || {
+        state_or_history(arguments)
+    })
+}
+
+fn state_or_history(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     let arguments = &arguments.completed();
     check_outputs(arguments)?;
     let axes = match &arguments.axes {
@@ -130,6 +153,7 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     };
     let mut scene = read_scene(&arguments.scene)?;
     scene.settings.interrupt = interrupt::on_ctrl_c();
+    scene.settings.engine = arguments.engine.into();
     check_drawable(arguments, &scene)?;
     if arguments.sensitivity && scene.steps.is_some() {
         return Err("--sensitivity: a load history; expected a scene without steps".into());
@@ -148,6 +172,9 @@ pub(crate) fn solve(arguments: &Solve) -> Result<ExitCode, Box<dyn Error>> {
     }
     if arguments.quality {
         report.quality.stress_error_estimate = Some(solution.stress_error_estimate());
+    }
+    if arguments.bound {
+        report.quality.stress_error_bound = Some(solution.stress_error_bound()?);
     }
     let missed = accuracy.as_ref().is_some_and(|accuracy| !accuracy.reached);
     report.accuracy = accuracy;

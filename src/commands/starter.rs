@@ -72,7 +72,7 @@ pub(super) fn scene(mesh: &Mesh, name: &str, file: &Path) -> Result<Scene, Strin
             ]
         })
         .flatten()
-        .map(String::as_str)
+        .flat_map(|group| group.iter().map(String::as_str))
         .collect();
     let free: Vec<&Surface<'_>> = (surfaces.iter())
         .filter(|surface| !in_contact.contains(surface.name))
@@ -86,29 +86,20 @@ pub(super) fn scene(mesh: &Mesh, name: &str, file: &Path) -> Result<Scene, Strin
         groups: Vec::new(),
         split,
     };
-    let body = SceneBody {
-        model: (dimension == 2).then_some(SceneModel::PlaneStrain),
-        materials: materials(mesh),
-        supports: held
-            .iter()
-            .map(|held| SceneSupport::of(held, &zero))
-            .collect(),
-        loads: (loaded.iter())
-            .map(|loaded| SceneLoad::Pressure {
-                pressure: 1.0,
-                group: (*loaded).to_owned(),
-            })
-            .collect(),
-        ..SceneBody::new(name, source)
-    };
-    Ok(Scene {
-        comment: Some(SceneComment::Lines(comment(mesh, &surfaces, &parts))),
-        title: name.to_owned(),
-        units: "mm, N, MPa".to_owned(),
-        bodies: vec![body],
-        contacts,
-        ..Scene::default()
-    })
+    let mut body = SceneBody::new(name, source);
+    body.model = (dimension == 2).then_some(SceneModel::PlaneStrain);
+    body.materials = materials(mesh);
+    body.supports
+        .extend(held.map(|held| SceneSupport::of(held, &zero)));
+    body.loads.extend(loaded.map(|loaded| SceneLoad::Pressure {
+        pressure: 1.0,
+        group: loaded.into(),
+    }));
+    let mut scene = Scene::new(vec![body], contacts);
+    scene.comment = Some(SceneComment::Lines(comment(mesh, &surfaces, &parts)));
+    scene.title = name.to_owned();
+    scene.units = "mm, N, MPa".to_owned();
+    Ok(scene)
 }
 
 /// What to look at, and what there is.
@@ -242,15 +233,14 @@ fn contacts(mesh: &Mesh, surfaces: &[Surface<'_>]) -> Vec<SceneContact> {
 }
 
 fn touching(own: &str, other: &str) -> SceneContact {
-    SceneContact {
-        group: own.to_owned(),
-        against: Some(SceneSurface {
-            body: None,
-            group: other.to_owned(),
-        }),
-        friction: Some(0.2),
-        ..SceneContact::default()
-    }
+    let mut contact = SceneContact::default();
+    contact.group = own.into();
+    contact.against = Some(SceneSurface {
+        body: None,
+        group: other.into(),
+    });
+    contact.friction = Some(0.2);
+    contact
 }
 
 /// Whether two surfaces may meet: a facet looks at one of the other side that is not farther than they are

@@ -198,7 +198,7 @@ fn words(part: study::Progress<'_>) -> String {
 }
 
 /// What was typed, with the program's name in place of its path.
-fn command_line() -> String {
+pub(super) fn command_line() -> String {
     let mut words: Vec<String> = std::env::args().collect();
     if let Some(program) = words.first_mut() {
         let name = Path::new(program.as_str()).file_name();

@@ -6,9 +6,10 @@ use std::process::ExitCode;
 
 use clap::Args;
 use dpana::report::MetamorphicBattery;
-use dpana::verify::{Reach, hard_cases, metamorphic};
+use dpana::verify::{Reach, hard_cases, manual, metamorphic};
 
 use super::outputs::{check_writable, say, write_output};
+use super::study::command_line;
 
 /// Random scenes whose changes belong to the hard cases.
 const CHANGED: usize = 250;
@@ -38,11 +39,17 @@ pub(crate) struct Verify {
     /// Write every number to this file, in JSON; `-` is standard output.
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
+    /// Write the verification manual to this file, a page of HTML: of each scene picture, source, floor, errors
+    /// and rates.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["hard", "largest", "metamorphic"])]
+    page: Option<PathBuf>,
 }
 
 pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
-    if let Some(output) = &arguments.report {
-        check_writable("--report", output)?;
+    for (option, output) in [("--report", &arguments.report), ("--page", &arguments.page)] {
+        if let Some(output) = output {
+            check_writable(option, output)?;
+        }
     }
     if arguments.hard || arguments.largest {
         return hard(arguments);
@@ -54,11 +61,18 @@ pub(crate) fn verify(arguments: &Verify) -> Result<ExitCode, Box<dyn Error>> {
         }
         return Ok(ended(battery.passed));
     }
-    let verification = dpana::verify(arguments.quick)?;
+    let verification = match arguments.page {
+        Some(_) => manual(arguments.quick)?,
+        None => dpana::verify(arguments.quick)?,
+    };
+    if let Some(path) = &arguments.page {
+        write_output(path, &verification.page(&command_line()))?;
+    }
     if let Some(path) = &arguments.report {
         write_output(path, &verification.to_json())?;
     }
-    say(&arguments.report, verification.summary().trim_end())?;
+    let outputs = arguments.report.iter().chain(&arguments.page);
+    say(outputs, verification.summary().trim_end())?;
     Ok(ended(verification.passed))
 }
 

@@ -14,54 +14,9 @@
 //! contact unknowns, and the nodes are eliminated like any others. C is a diagonal that keeps the
 //! whole positive definite; nothing of what is read depends on it.
 
-use faer::linalg::matmul::triangular::{self, BlockStructure};
-use faer::{Accum, Mat, get_global_parallelism};
-
 use super::factor::Factor;
 
 impl Factor {
-    /// `G = W Wᵀ` (C17), in m/N; both triangles are filled.
-    pub(crate) fn border_compliance(&self) -> Mat<f64> {
-        let size = self.contact_unknowns();
-        let ordinary = self.unknowns() - size;
-        let mut compliance = Mat::zeros(size, size);
-        for index in self.ordinary_supernodes() {
-            let supernode = self.supernode(index);
-            let (rows, width) = (
-                supernode.rows_from(ordinary),
-                supernode.width_before(ordinary),
-            );
-            if width == 0 || rows.is_empty() {
-                continue;
-            }
-            let block = supernode.lowest(rows.len(), width);
-            let mut product = Mat::<f64>::zeros(rows.len(), rows.len());
-            triangular::matmul(
-                product.as_mut(),
-                BlockStructure::TriangularLower,
-                Accum::Replace,
-                block,
-                BlockStructure::Rectangular,
-                block.transpose(),
-                BlockStructure::Rectangular,
-                1.0,
-                get_global_parallelism(),
-            );
-            for (j, &column) in rows.iter().enumerate() {
-                let sums = compliance.col_as_slice_mut(column);
-                for (&row, entry) in rows[j..].iter().zip(&product.col_as_slice(j)[j..]) {
-                    sums[row] += entry;
-                }
-            }
-        }
-        for j in 0..size {
-            for i in 0..j {
-                compliance[(i, j)] = compliance[(j, i)];
-            }
-        }
-        compliance
-    }
-
     /// `v̂ = W y` (C17) in metre; `force` in newton becomes y.
     pub(crate) fn border_displacement(&self, force: &mut Vec<f64>) -> Vec<f64> {
         force.resize(self.unknowns(), 0.0);

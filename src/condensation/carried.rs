@@ -5,6 +5,9 @@
 //!        u_ref,i = B_i d(x_i)                        d: motion of the components that are given (C14)
 //! ```
 //!
+//! Between the faces of a cut d is what moves the second of them on, so that it counts against the first, from
+//! whichever side a contact looks. A cut that is locked has its shortening given.
+//!
 //! The motion is taken where a contact's displacement is measured and its force acts, so that what the
 //! bodies give each other is equal in force and moment. Amplitudes of rotations are in metre at the
 //! contact farthest from the reference point.
@@ -24,12 +27,16 @@ const ROUND_OFF: f64 = 1e-13;
 /// Rigid bodies, where contacts see them, and what acts on them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Carried {
+    /// As they are stated, and with what is locked.
+    stated: Arc<[RigidBody]>,
     bodies: Arc<[RigidBody]>,
     seats: Arc<[Seat]>,
     /// Distance of the farthest contact from each reference point, in metre.
     sizes: Vec<f64>,
     /// Factor per body and component.
     factors: Vec<[f64; 6]>,
+    /// Shortening per body at which its cut is locked, in metre.
+    locked: Vec<Option<f64>>,
 }
 
 /// A contact against a rigid body.
@@ -39,6 +46,15 @@ struct Seat {
     body: usize,
     /// Where its displacement is measured, in metre.
     centre: [f64; 3],
+    /// −1 if it looks from the second face of a cut.
+    sign: f64,
+}
+
+impl Seat {
+    /// How its other side moves, in metre.
+    fn moved(&self, motion: &RigidMotion) -> [f64; 3] {
+        motion.at(self.centre).map(|d| self.sign * d)
+    }
 }
 
 impl Carried {
@@ -56,6 +72,7 @@ impl Carried {
                     contact,
                     body,
                     centre,
+                    sign: if at.second { -1.0 } else { 1.0 },
                 });
             }
         }
@@ -63,11 +80,43 @@ impl Carried {
             *size = if *size > 0.0 { *size } else { 1.0 };
         }
         Self {
+            stated: rigid.into(),
             bodies: rigid.into(),
             seats: seats.into(),
             sizes,
             factors: vec![[1.0; 6]; rigid.len()],
+            locked: vec![None; rigid.len()],
         }
+    }
+
+    /// Locks cuts at a shortening per body, in metre, and frees all others; whether that changes what is free.
+    pub(super) fn lock(&mut self, locked: &[Option<f64>]) -> bool {
+        if self.locked == locked {
+            return false;
+        }
+        let held = |locked: &[Option<f64>]| locked.iter().map(Option::is_some).collect::<Vec<_>>();
+        let changed = held(&self.locked) != held(locked);
+        let mut bodies = self.stated.to_vec();
+        for (body, shortening) in bodies.iter_mut().zip(locked) {
+            if let Some(shortening) = shortening {
+                body.components[0] = Component::Given(*shortening);
+            }
+        }
+        self.bodies = bodies.into();
+        self.locked = locked.to_vec();
+        changed
+    }
+
+    /// Shortening per body at which its cut is locked, in metre.
+    pub(super) fn locked(&self) -> &[Option<f64>] {
+        &self.locked
+    }
+
+    /// The amplitudes, one per free mode, of those modes that are left once these cuts are locked.
+    pub(super) fn unlocked(&self, amplitudes: &[f64], locked: &[Option<f64>]) -> Vec<f64> {
+        let modes = self.free().zip(amplitudes);
+        let left = modes.filter(|((body, ..), _)| locked.get(*body).is_none_or(Option::is_none));
+        left.map(|(_, &amplitude)| amplitude).collect()
     }
 
     /// Body, component and amplitude's unit of every free mode.
@@ -97,7 +146,7 @@ impl Carried {
             let motion = self.one(body, k, -unit);
             for seat in self.seats.iter().filter(|seat| seat.body == body) {
                 let contact = &surface.nodes[seat.contact];
-                let moved = motion.at(seat.centre);
+                let moved = seat.moved(&motion);
                 for (row, direction) in contact.frame[..=contact.tangents].iter().enumerate() {
                     let along: f64 = direction.iter().zip(moved).map(|(d, u)| d * u).sum();
                     modes[(firsts[seat.contact] + row, column)] = along;
@@ -134,6 +183,23 @@ impl Carried {
         load
     }
 
+    /// What a unit more of the factor of a component gives: motion of every body, and e.
+    pub(super) fn rate_of(&self, rigid: usize, component: usize) -> (Vec<RigidMotion>, Vec<f64>) {
+        let one = Self {
+            factors: vec![[1.0; 6]; self.bodies.len()],
+            ..self.clone()
+        };
+        let mut motions: Vec<_> = self
+            .bodies
+            .iter()
+            .map(|body| body.motion([0.0; 6]))
+            .collect();
+        if let Component::Given(motion) = self.bodies[rigid].components[component] {
+            motions[rigid] = self.one(rigid, component, motion);
+        }
+        (motions, one.load_of(rigid, component))
+    }
+
     /// Given forces on the free components of a body, in newton, and moments in newton metre.
     pub(super) fn forces(&self, body: usize) -> [f64; 6] {
         self.values(body, |component| match component {
@@ -144,7 +210,12 @@ impl Carried {
 
     fn values(&self, body: usize, of: impl Fn(Component) -> f64) -> [f64; 6] {
         let components = self.bodies[body].components;
-        std::array::from_fn(|k| self.factors[body][k] * of(components[k]))
+        // A shortening that is locked has no factor.
+        let factor = |k: usize| match self.locked[body] {
+            Some(_) => 1.0,
+            None => self.factors[body][k],
+        };
+        std::array::from_fn(|k| factor(k) * of(components[k]))
     }
 
     /// Given motion of a body.
@@ -181,7 +252,7 @@ impl Carried {
     /// Puts the displacement of the other side per contact, in metre, where that is a rigid body.
     pub(super) fn put(&self, motions: &[RigidMotion], moved: &mut [[f64; 3]]) {
         for seat in self.seats.iter() {
-            moved[seat.contact] = motions[seat.body].at(seat.centre);
+            moved[seat.contact] = seat.moved(&motions[seat.body]);
         }
     }
 
@@ -207,7 +278,7 @@ impl Carried {
         check_finite(place, &self.forces(body))
     }
 
-    /// The rigid bodies.
+    /// The rigid bodies, with what is locked.
     pub(super) fn bodies(&self) -> &[RigidBody] {
         &self.bodies
     }

@@ -5,17 +5,21 @@ use std::time::Instant;
 
 use faer::Mat;
 
-use super::CondensationWork;
 use super::PartMotion;
 use super::carried::Carried;
 use super::condensed_body::CondensedBody;
+use super::engine::{BodyFactor, By, Engine};
+use super::factor::Precision;
+use super::given::{Prescribed, checked, given, possible};
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::laws::{friction, under_laws};
 use super::load_case::Given;
+use super::mumps::RankMemory;
 use super::rigid_bodies::{floating, part_motions, rigid_parts};
 use super::room::dense_bytes;
-use super::supported::{OfInterface, SupportedBody};
+use super::supported::SupportedBody;
+use super::work::{CondensationWork, Fallback};
 use crate::body;
 use crate::body::{Body, Dependence};
 use crate::contact::{ContactPair, ContactSurface, RigidBody, RigidMotion};
@@ -31,6 +35,7 @@ pub struct Condensed {
     pub(super) bodies: Vec<CondensedBody>,
     pub(super) interfaces: Arc<[Interface]>,
     pub(super) carried: Carried,
+    dimension: usize,
     pub(super) work: CondensationWork,
 }
 
@@ -57,6 +62,9 @@ pub(super) fn supported<'a>(
     }
 }
 
+/// The crate's own factors, in double precision.
+const IN_DOUBLE: (Engine, Precision) = (Engine::Faer, Precision::Double);
+
 impl Condensed {
     /// Condenses bodies onto the surfaces where they may touch obstacles or each other.
     ///
@@ -79,14 +87,80 @@ impl Condensed {
         pairs: &[ContactPair],
         rigid: &[RigidBody],
     ) -> Result<Self, Error> {
+        Self::with_engine(Engine::Faer, bodies, pairs, rigid)
+    }
+
+    /// The same by an engine of choice.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_rigid`](Self::with_rigid), and what keeps [`Engine::Mumps`] from factorising: no
+    /// [`Ranks`](super::Ranks) that were joined, ranks with another scene, too little memory.
+    pub fn with_engine(
+        engine: Engine,
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
         let start = Instant::now();
-        let mut prescribed = Vec::with_capacity(bodies.len());
-        for body in bodies {
-            body::check(body)?;
-            prescribed.push(body::prescribed(body)?);
-        }
+        let prescribed = checked(bodies)?;
         let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
-        Self::on_surface(bodies, (pairs, rigid), surface, prescribed, start)
+        let surface = Arc::new(surface);
+        let given = (pairs, rigid, prescribed);
+        Self::on_surface((engine, Precision::Double), bodies, given, surface, start)
+    }
+
+    /// The same with factors in single precision (C32) where that pays and (C24) can make up for it: û and G have
+    /// seven digits, until contacts that are solved are [corrected](Self::correction).
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_rigid`](Self::with_rigid).
+    pub fn rounded(
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let prescribed = checked(bodies)?;
+        let surface = Arc::new(ContactSurface::new(bodies, pairs, &prescribed)?);
+        let given = (pairs, rigid, prescribed);
+        Self::on_surface(
+            (Engine::Faer, Precision::Single),
+            bodies,
+            given,
+            surface,
+            start,
+        )
+    }
+
+    /// The same bodies with factors in double precision, instead of these; with the sign that asks for it, if any.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`with_rigid`](Self::with_rigid).
+    pub fn in_double(
+        self,
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        sign: impl Into<Option<Fallback>>,
+    ) -> Result<Self, Error> {
+        let start = Instant::now();
+        let (surface, before) = (Arc::clone(&self.surface), self.work);
+        let rigid = self.carried.bodies().to_vec();
+        // Before there are others.
+        drop(self);
+        let given = (pairs, &rigid[..], checked(bodies)?);
+        let mut found = Self::on_surface(IN_DOUBLE, bodies, given, surface, start)?;
+        found.work = before.again(found.work);
+        found.work.fallback = sign.into().or(before.fallback);
+        Ok(found)
+    }
+
+    /// Whether a factor is in single precision (C32).
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        self.work.single_factors > 0
     }
 
     /// The same bodies on a contact surface that is found already, and maybe changed since.
@@ -104,41 +178,46 @@ impl Condensed {
             .iter()
             .map(body::prescribed)
             .collect::<Result<_, _>>()?;
-        Self::on_surface(bodies, (pairs, &[]), surface, prescribed, start)
+        let (given, surface) = ((pairs, &[][..], prescribed), Arc::new(surface));
+        Self::on_surface(IN_DOUBLE, bodies, given, surface, start)
     }
 
     fn on_surface(
+        (engine, wanted): (Engine, Precision),
         bodies: &[Body],
-        (pairs, rigid): (&[ContactPair], &[RigidBody]),
-        surface: ContactSurface,
-        prescribed: Vec<Vec<Option<f64>>>,
+        (pairs, rigid, prescribed): (&[ContactPair], &[RigidBody], Prescribed),
+        surface: Arc<ContactSurface>,
         start: Instant,
     ) -> Result<Self, Error> {
         stage::found(surface.nodes.len(), dense_bytes(&surface)?);
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
         let mut work = CondensationWork::default();
+        let given = given(bodies, &surface, prescribed, engine)?;
+        let wanted = if rigid.is_empty() {
+            wanted
+        } else {
+            Precision::Double
+        };
+        let precision = possible(wanted, bodies, &given);
         let (mut condensed, mut interfaces) = (Vec::new(), Vec::new());
-        let mut of_interfaces = Vec::new();
-        for (index, (body, prescribed)) in bodies.iter().zip(prescribed).enumerate() {
+        let mut compliances = Vec::new();
+        for (index, (body, (prescribed, tied, interface))) in bodies.iter().zip(given).enumerate() {
             Stage::Assembly.begin();
-            let dependence = body::dependence(body)?;
-            let interface = Interface::new(
-                &surface,
-                index,
-                dimension,
-                (&prescribed, dependence.as_ref()),
-            );
-            let supported = supported(body, (prescribed, dependence), &interface);
-            let (body, of_interface) = supported.condense(&interface, &mut work)?;
+            let by = match engine {
+                Engine::Faer => By::Faer(precision),
+                Engine::Mumps => By::Mumps(body, index),
+            };
+            let supported = supported(body, (prescribed, tied), &interface);
+            let (body, compliance) = supported.condense(&interface, by, &mut work)?;
             condensed.push(body);
             interfaces.push(interface);
-            of_interfaces.push(of_interface);
+            compliances.push(compliance);
         }
         let before = work.ordering_seconds + work.factorisation_seconds + work.condensation_seconds;
         work.assembly_seconds = start.elapsed().as_secs_f64() - before;
         Stage::Condensation.begin();
         let start = Instant::now();
-        let mut problem = join(&surface, pairs, &interfaces, &condensed, of_interfaces)?;
+        let mut problem = join(&surface, pairs, &interfaces, &condensed, compliances)?;
         let groundings: Vec<_> = condensed.iter().map(CondensedBody::grounding).collect();
         let loads: Vec<_> = condensed.iter().map(|body| body.load()).collect();
         let carried = Carried::new(rigid, bodies, &surface);
@@ -147,11 +226,12 @@ impl Condensed {
         }
         work.condensation_seconds += start.elapsed().as_secs_f64();
         let mut condensed = Self {
-            surface: Arc::new(surface),
+            surface,
             problem,
             bodies: condensed,
             interfaces: interfaces.into(),
             carried,
+            dimension,
             work,
         };
         if !rigid.is_empty() {
@@ -206,7 +286,7 @@ impl Condensed {
         &motion[elastic..]
     }
 
-    /// The rigid bodies.
+    /// The rigid bodies, with what is locked.
     #[must_use]
     pub fn rigid_bodies(&self) -> &[RigidBody] {
         self.carried.bodies()
@@ -216,6 +296,48 @@ impl Condensed {
     #[must_use]
     pub fn rigid_motions(&self, motion: &[f64]) -> Vec<RigidMotion> {
         self.carried.motions(self.of_rigid(motion))
+    }
+
+    /// Locks the cuts of rigid bodies at a shortening per body, in metre, and frees all others: what is given of them
+    /// acts from the next [`act`](Self::act) on.
+    ///
+    /// # Errors
+    ///
+    /// None for the bodies that were condensed.
+    pub fn lock(&mut self, locked: &[Option<f64>]) -> Result<(), Error> {
+        if !self.carried.lock(locked) {
+            return Ok(());
+        }
+        let groundings: Vec<_> = self.bodies.iter().map(CondensedBody::grounding).collect();
+        let loads: Vec<_> = self.bodies.iter().map(|body| body.load()).collect();
+        let (surface, dimension) = (&self.surface, self.dimension);
+        let floating = floating(surface, &groundings, &loads, dimension, &self.carried)?;
+        self.problem = self.problem.clone().floating_as(floating);
+        Ok(())
+    }
+
+    /// Shortening per rigid body at which its cut is locked, in metre.
+    #[must_use]
+    pub fn locked(&self) -> &[Option<f64>] {
+        self.carried.locked()
+    }
+
+    /// What is locked after a state at an instant of a history, under an amplitude per free mode, and the amplitudes
+    /// of the modes that are then left.
+    #[must_use]
+    pub fn locks_from(&self, at: f64, motion: &[f64]) -> (Vec<Option<f64>>, Vec<f64>) {
+        let rigid = self.of_rigid(motion);
+        let moved = self.carried.motions(rigid);
+        let bodies = self.rigid_bodies().iter().zip(&moved).zip(self.locked());
+        let locked: Vec<_> = bodies
+            .map(|((body, moved), locked)| {
+                let from = body.cut?.locked_from?;
+                locked.or((at >= from).then(|| body.shortening(moved)))
+            })
+            .collect();
+        let mut left = motion[..motion.len() - rigid.len()].to_vec();
+        left.extend(self.carried.unlocked(rigid, &locked));
+        (locked, left)
     }
 
     /// Given force, in newton, and moment, in newton metre, on the free components of each.
@@ -270,6 +392,21 @@ impl Condensed {
         self.work
     }
 
+    /// Memory of every rank for the factors of all bodies; empty where one process factorises.
+    #[must_use]
+    pub fn ranks(&self) -> Vec<RankMemory> {
+        let mut sum = Vec::new();
+        for body in &self.bodies {
+            let memory = body.factored.factor.memory();
+            sum.resize(memory.len().max(sum.len()), RankMemory::default());
+            for (sum, memory) in sum.iter_mut().zip(memory) {
+                sum.estimated += memory.estimated;
+                sum.used += memory.used;
+            }
+        }
+        sum
+    }
+
     /// Displacement of every node of every body under the load and a contact reaction
     /// (C6), in metre.
     ///
@@ -278,19 +415,19 @@ impl Condensed {
     ///
     /// # Errors
     ///
-    /// [`Error::Length`] if reaction or motion do not fit the contact problem.
+    /// [`Error::Length`] if reaction or motion do not fit the contact problem, [`Error::NotAccepted`] where
+    /// ranks do not solve any more.
     pub fn recover(&self, reaction: &[f64], motion: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
         check_length("motion", self.problem.free_modes(), motion.len())?;
         let mut motions = motion;
         let bodies = self.bodies.iter().zip(self.interfaces.iter());
-        Ok(bodies
-            .map(|(body, interface)| {
-                let (own, rest) = motions.split_at(body.grounding().modes.ncols());
-                motions = rest;
-                body.recover(&interface.forces(reaction), own)
-            })
-            .collect())
+        let recovered = bodies.map(|(body, interface)| {
+            let (own, rest) = motions.split_at(body.grounding().modes.ncols());
+            motions = rest;
+            body.recover(&interface.forces(reaction), own)
+        });
+        recovered.collect()
     }
 }
 
@@ -300,7 +437,7 @@ fn join(
     pairs: &[ContactPair],
     interfaces: &[Interface],
     bodies: &[CondensedBody],
-    of_interfaces: Vec<OfInterface>,
+    compliances: Vec<Mat<f64>>,
 ) -> Result<ContactProblem, Error> {
     let tangents: Vec<usize> = surface.nodes.iter().map(|node| node.tangents).collect();
     let unknowns = tangents.iter().map(|count| 1 + count).sum();
@@ -309,14 +446,17 @@ fn join(
         let action = &body.action;
         interface.add_displacement(action, &action.free_displacement, &mut free_displacement);
     }
-    let mut operators = of_interfaces.into_iter().map(OfInterface::operator);
-    let operator = match (interfaces, operators.next().transpose()?) {
-        ([interface], Some(operator)) if interface.is_identity() => operator,
+    let mut compliances = compliances.into_iter();
+    let operator = match (interfaces, compliances.next()) {
+        ([interface], Some(own)) if interface.is_identity() => {
+            let factor = bodies.first().map(|body| &body.factored.factor);
+            Operator::of_body(own, factor.and_then(BodyFactor::trailing_block))
+        }
         (_, first) => {
             let mut compliance = Mat::zeros(unknowns, unknowns);
-            let operators = first.map(Ok).into_iter().chain(operators);
-            for (interface, operator) in interfaces.iter().zip(operators) {
-                interface.add_compliance(operator?.compliance(), &mut compliance);
+            let compliances = first.into_iter().chain(compliances);
+            for (interface, own) in interfaces.iter().zip(compliances) {
+                interface.add_compliance(&own, &mut compliance);
             }
             Operator::from_bodies(compliance)?
         }
@@ -360,13 +500,11 @@ mod tests {
         let right = facets(&body.mesh, "right");
         // Contacts of quadratic facets beside it would be dragged along.
         let across = if kind.is_linear() { 0.01 } else { 0.0 };
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
-            displacement: [Some(0.0), Some(across), Some(0.0)],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
+        body.supports.push(Support::new(
+            "supports[0]",
+            right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            [Some(0.0), Some(across), Some(0.0)],
+        ));
         body.loads.push(Load::Pressure {
             facets: facets(&body.mesh, "top"),
             pressure: 0.7,
@@ -374,20 +512,16 @@ mod tests {
         let vertical = kind.dimension() - 1;
         let mut normal = [0.0; 3];
         normal[vertical] = 2.0;
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets(&body.mesh, "bottom"),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&body.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: normal.map(|component| -0.0005 * component),
                 normal,
             }),
-            friction: 0.4,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.4,
+        );
         (body, pair)
     }
 
@@ -560,13 +694,9 @@ mod tests {
         let mut square = body(mesh, Model::PlaneStrain, 0.2);
         square.materials[0].young = 1.3e11;
         let mut hold = |nodes: Vec<usize>, displacement| {
-            square.supports.push(Support {
-                place: "supports".to_owned(),
-                nodes,
-                displacement,
-                offsets: Vec::new(),
-                axes: Vec::new(),
-            });
+            square
+                .supports
+                .push(Support::new("supports", nodes, displacement));
         };
         hold((8..81).step_by(9).collect(), [Some(0.0), None, None]);
         hold(vec![8], [None, Some(0.0), None]);
@@ -576,20 +706,16 @@ mod tests {
                 pressure,
             });
         }
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets(&square.mesh, "bottom"),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&square.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
             }),
-            friction: 0.0,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.0,
+        );
         let condensed = Condensed::new(&[square], &[pair]).unwrap();
         assert_eq!(condensed.surface().left_out, [(0, 8)]);
         // Every contact closes: S t = −û, for the gap is zero.
@@ -669,27 +795,19 @@ mod tests {
         mesh.push_cell(CellKind::Quad4, &[0, 1, 2, 3]);
         mesh.push_cell(CellKind::Quad4, &[2, 4, 5, 6]);
         let mut hinged = body(mesh, Model::PlaneStrain, 0.3);
-        hinged.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: vec![0, 3],
-            displacement: [Some(0.0); 3],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: vec![Facet { nodes: vec![2, 4] }],
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        hinged
+            .supports
+            .push(Support::new("supports[0]", vec![0, 3], [Some(0.0); 3]));
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            vec![Facet { nodes: vec![2, 4] }],
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
             }),
-            friction: 0.5,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.5,
+        );
         let found = Condensed::new(&[hinged], &[pair]).unwrap_err();
         assert!(
             matches!(found, Error::NotPositiveDefinite { .. }),

@@ -11,12 +11,14 @@ use std::sync::Arc;
 
 use sprs::CsMat;
 
+use super::engine::BodyFactor;
 use super::factor::Factor;
 use super::grounding::Grounding;
 use super::load_case::{Action, Given};
 use super::local_axes::Frames;
 use super::ordering::Ordering;
 use crate::body::{Dependence, Equation};
+use crate::error::Error;
 
 /// A body, the factor that joins it to its interface, and what acts on it; copies share the factor.
 #[derive(Clone, Debug)]
@@ -32,7 +34,7 @@ pub(super) struct FactoredBody {
     pub(super) dependence: Option<Dependence>,
     pub(super) frames: Frames,
     pub(super) ordering: Ordering,
-    pub(super) factor: Factor,
+    pub(super) factor: BodyFactor,
     pub(super) grounding: Grounding,
 }
 
@@ -86,8 +88,16 @@ impl CondensedBody {
 
     /// Displacement per degree of freedom under the load and a force per interface unknown (C6),
     /// moved by an amplitude per free mode (C3).
-    pub(super) fn recover(&self, forces: &[f64], motion: &[f64]) -> Vec<f64> {
-        self.factored.recover(&self.action, forces, motion)
+    pub(super) fn recover(&self, forces: &[f64], motion: &[f64]) -> Result<Vec<f64>, Error> {
+        let displacement = self.factored.recover(&self.action, forces, motion);
+        match self.factored.factor.failure() {
+            None => Ok(displacement),
+            Some(found) => Err(Error::NotAccepted {
+                place: "recovery".to_owned(),
+                found,
+                accepted: "ranks that solve".to_owned(),
+            }),
+        }
     }
 }
 
@@ -104,12 +114,13 @@ impl FactoredBody {
             }
             false => self.right_hand_side(&load, constant.iter().copied()),
         };
-        let free_displacement = if self.factor.is_bordered() {
-            self.factor.border_displacement(&mut half_solved)
-        } else {
-            self.factor.forward(&mut half_solved);
-            let mut solved = half_solved.clone();
-            self.factor.backward_on_contact(&mut solved).to_vec()
+        let free_displacement = match self.factor.plain() {
+            None => self.factor.border_displacement(&mut half_solved),
+            Some(factor) => {
+                factor.forward(&mut half_solved);
+                let mut solved = half_solved.clone();
+                factor.backward_on_contact(&mut solved).to_vec()
+            }
         };
         Action {
             load,
@@ -157,23 +168,34 @@ impl FactoredBody {
         displacement
     }
 
-    /// x of (C6).
-    fn solve(&self, half_solved: &[f64], forces: &[f64]) -> Vec<f64> {
+    /// `y + [0, L_cc⁻¹ t]` of (C6).
+    pub(super) fn half_solved_under(
+        &self,
+        factor: &Factor,
+        half_solved: &[f64],
+        forces: &[f64],
+    ) -> Vec<f64> {
         let mut x = vec![0.0; self.ordering.unknowns()];
         x[self.ordering.ordinary()..].copy_from_slice(forces);
-        self.factor.forward_on_contact(&mut x);
+        factor.forward_on_contact(&mut x);
         for (x, y) in x.iter_mut().zip(half_solved) {
             *x += y;
         }
-        self.factor.backward(&mut x);
+        x
+    }
+
+    /// x of (C6).
+    pub(super) fn solve(&self, factor: &Factor, half_solved: &[f64], forces: &[f64]) -> Vec<f64> {
+        let mut x = self.half_solved_under(factor, half_solved, forces);
+        factor.backward(&mut x);
         x
     }
 
     /// (C6), or (C17) with a border.
     pub(super) fn recover(&self, action: &Action, forces: &[f64], motion: &[f64]) -> Vec<f64> {
-        let x = match self.factor.is_bordered() {
-            true => self.factor.displacement_under(&action.half_solved, forces),
-            false => self.solve(&action.half_solved, forces),
+        let x = match self.factor.plain() {
+            None => self.factor.displacement_under(&action.half_solved, forces),
+            Some(factor) => self.solve(factor, &action.half_solved, forces),
         };
         let mut displacement = self.in_space(&x);
         for (u, constant) in displacement.iter_mut().zip(&action.constant) {

@@ -1,14 +1,16 @@
 //! Bodies that their factor shows with few digits, set right by what they leave of their own equations.
 //!
 //! ```text
-//! (C24)  r = f + Bᵀ t − K u,   u ← u + K⁻¹ r        r as if in twice the precision
-//!        û ← û + (B u − (û + G t))                  the contact problem follows the bodies
+//! (C24)  r = f + Bᵀ t − K u,   L y = r              r as if in twice the precision
+//!        û ← û + (B (u + L_cc⁻ᵀ y_c) − (û + G t))   the contact problem follows the bodies; solved again: t'
+//!        Lᵀ δ = y + L⁻¹ Bᵀ (t' − t),   u ← u + δ
 //! ```
 //!
-//! K is exact as it stands, its factor is not: a slender body that would move by kilometres without its
-//! contacts keeps few digits of what it does with them, in û and G as in the recovered displacement. Solved
-//! again under the shifted û, the contacts stand where the bodies are: each round takes as many digits as the
-//! factor has. (Iterative refinement: Wilkinson, Rounding Errors in Algebraic Processes (1963), ch. 3.)
+//! K is exact as it stands, its factor is not: one in single precision has seven digits (C32), and a slender body
+//! that would move by kilometres without its contacts keeps few of what it does with them, in û and G as in the
+//! recovered displacement. Solved again under the shifted û, the contacts stand where the bodies are: each round
+//! takes as many digits as the factor has, as the errors of û and G count only by what still changes. (Iterative
+//! refinement: Wilkinson, Rounding Errors in Algebraic Processes (1963), ch. 3.)
 
 use super::Condensed;
 use super::condensed_body::FactoredBody;
@@ -47,23 +49,53 @@ impl Condensed {
     pub fn corrects(&self) -> bool {
         let mut bodies = self.bodies.iter().map(|body| &body.factored);
         self.carried.modes() == 0
-            && bodies.all(|body| body.grounding.modes.ncols() == 0 && !body.factor.is_bordered())
+            && bodies.all(|body| body.grounding.modes.ncols() == 0 && body.factor.plain().is_some())
     }
 
-    /// The first of (C24): displacements under a reaction in newton, in place, in metre.
+    /// The first of (C24), for bodies that [correct](Self::corrects).
+    ///
+    /// - `displacement`: of the contact problem, `û + G t`, in metre per unknown;
+    /// - `reaction`: t, in newton per unknown;
+    /// - `displacements`: u per body and degree of freedom, in metre.
     ///
     /// # Errors
     ///
     /// [`Error::Length`] if they do not fit.
-    pub fn refine(&self, reaction: &[f64], displacements: &mut [Vec<f64>]) -> Result<(), Error> {
+    pub fn correction(
+        &self,
+        displacement: &[f64],
+        reaction: &[f64],
+        displacements: &[Vec<f64>],
+    ) -> Result<Correction, Error> {
         check_length("reaction", self.problem.unknowns(), reaction.len())?;
-        check_length("displacements", self.bodies.len(), displacements.len())?;
+        let mut ahead = self.ahead(displacement, displacements)?;
+        let (mut half_solved, mut left, mut acting) = (Vec::new(), 0.0_f64, 0.0_f64);
         let bodies = self.bodies.iter().zip(self.interfaces.iter());
-        for ((body, interface), displacement) in bodies.zip(displacements) {
+        for ((body, interface), moved) in bodies.zip(displacements) {
+            let (factored, action) = (&body.factored, &body.action);
             let forces = interface.forces(reaction);
-            body.factored.refine(&body.action, &forces, displacement);
+            let Some(factor) = factored.factor.plain() else {
+                half_solved.push(Vec::new());
+                continue;
+            };
+            let mut rest = factored.residual(action, &forces, moved);
+            factor.forward(&mut rest);
+            left = left.hypot(norm(&rest));
+            acting = acting.hypot(norm(&factored.half_solved_under(
+                factor,
+                &action.half_solved,
+                &forces,
+            )));
+            let mut further = rest.clone();
+            let further = factor.backward_on_contact(&mut further);
+            interface.add_own_displacement(further, &mut ahead);
+            half_solved.push(rest);
         }
-        Ok(())
+        Ok(Correction {
+            half_solved,
+            ahead,
+            part: if left > 0.0 { left / acting } else { 0.0 },
+        })
     }
 
     /// The second of (C24): the contact problem with û moved, in metre per unknown.
@@ -78,7 +110,62 @@ impl Condensed {
             .total_displacement(self.problem.free_displacement());
         let free = free.iter().zip(ahead).map(|(u, more)| u + more).collect();
         self.problem = self.problem.step(free, self.problem.reference().to_vec())?;
+        self.work.corrections += 1;
         Ok(())
+    }
+
+    /// The third of (C24): displacements in place, in metre, under a reaction that changed by `change`, in newton.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] if they do not fit.
+    pub fn advance(
+        &self,
+        correction: Correction,
+        change: &[f64],
+        displacements: &mut [Vec<f64>],
+    ) -> Result<(), Error> {
+        check_length("change", self.problem.unknowns(), change.len())?;
+        check_length("displacements", self.bodies.len(), displacements.len())?;
+        let bodies = self.bodies.iter().zip(self.interfaces.iter());
+        let bodies = bodies.zip(correction.half_solved);
+        for (((body, interface), rest), displacement) in bodies.zip(displacements) {
+            let Some(factor) = body.factored.factor.plain() else {
+                continue;
+            };
+            let forces = interface.forces(change);
+            let solved = body.factored.solve(factor, &rest, &forces);
+            let change = body.factored.in_space(&solved);
+            let given = &body.action.prescribed;
+            let unknowns = displacement.iter_mut().zip(given).zip(change);
+            for ((u, _), change) in unknowns.filter(|((_, given), _)| given.is_none()) {
+                *u += change;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What bodies leave of their equations, half solved: a round of (C24) on its way.
+#[derive(Debug)]
+pub struct Correction {
+    /// y per body.
+    half_solved: Vec<Vec<f64>>,
+    ahead: Vec<f64>,
+    part: f64,
+}
+
+impl Correction {
+    /// By how much û is to move, in metre per unknown of the contact problem.
+    #[must_use]
+    pub fn ahead(&self) -> &[f64] {
+        &self.ahead
+    }
+
+    /// What is left over what acts, `√(rᵀ K⁻¹ r)` over the same of all forces.
+    #[must_use]
+    pub fn part(&self) -> f64 {
+        self.part
     }
 }
 
@@ -89,17 +176,6 @@ impl FactoredBody {
         self.frames.turn_to_local(&mut local);
         let contacts = &self.ordering.dof[self.ordering.ordinary()..];
         contacts.iter().map(|&dof| local[dof]).collect()
-    }
-
-    fn refine(&self, action: &Action, forces: &[f64], displacement: &mut [f64]) {
-        let mut rest = self.residual(action, forces, displacement);
-        self.factor.forward(&mut rest);
-        self.factor.backward(&mut rest);
-        let change = self.in_space(&rest);
-        let unknowns = displacement.iter_mut().zip(&action.prescribed).zip(change);
-        for ((u, _), change) in unknowns.filter(|((_, prescribed), _)| prescribed.is_none()) {
-            *u += change;
-        }
     }
 
     /// r of (C24), in newton, in the factor's order.
@@ -117,6 +193,15 @@ impl FactoredBody {
             .zip(forces)
             .for_each(|(rest, force)| *rest += force);
         rest
+    }
+}
+
+fn norm(vector: &[f64]) -> f64 {
+    let largest = vector.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let squares = vector.iter().map(|x| (x / largest).powi(2));
+    match largest > 0.0 {
+        true => largest * squares.sum::<f64>().sqrt(),
+        false => largest,
     }
 }
 
@@ -146,27 +231,21 @@ mod tests {
     fn condensed() -> Condensed {
         let mut body = distorted(CellKind::Hex8);
         let right = facets(&body.mesh, "right");
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
-            displacement: [Some(0.0), Some(0.01), Some(-0.02)],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets(&body.mesh, "bottom"),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        body.supports.push(Support::new(
+            "supports[0]",
+            right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            [Some(0.0), Some(0.01), Some(-0.02)],
+        ));
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&body.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0, 0.0, -1.0],
                 normal: [0.28, 0.0, 0.96],
             }),
-            friction: 0.3,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.3,
+        );
         Condensed::new(&[body], &[pair]).unwrap()
     }
 
@@ -191,7 +270,13 @@ mod tests {
         {
             *u *= 1.0 + 1e-3 * (k as f64).cos();
         }
-        condensed.refine(&reaction, &mut wrong).unwrap();
+        let said = condensed.problem().displacement(&reaction);
+        let correction = condensed.correction(&said, &reaction, &wrong).unwrap();
+        assert!((1e-5..1e-1).contains(&correction.part()));
+        // Where the bodies will be is where the problem says.
+        assert!(correction.ahead().iter().all(|u| u.abs() < 1e-13));
+        let none = vec![0.0; reaction.len()];
+        condensed.advance(correction, &none, &mut wrong).unwrap();
         for (found, expected) in wrong[0].iter().zip(&right[0]) {
             assert!((found - expected).abs() < 1e-13, "{found} {expected}");
         }

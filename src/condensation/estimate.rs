@@ -1,9 +1,10 @@
 //! What a condensation will take, from the pattern of its factors: nothing is factorised.
 
 use super::condensed::supported;
-use super::interface::Interface;
+use super::engine::Engine;
+use super::factor::Precision;
+use super::given::{given, possible};
 use super::room::dense_bytes;
-use crate::body;
 use crate::body::Body;
 use crate::contact::ContactSurface;
 use crate::error::Error;
@@ -23,30 +24,37 @@ pub struct Estimate {
     pub operations: f64,
 }
 
-/// Orders the bodies and counts what their factors and the dense operator will take.
+/// Orders the bodies and counts what their factors, in the precision that is wanted where it can be, and the dense
+/// operator will take.
 ///
 /// # Errors
 ///
 /// Those of [`Condensed::new`](super::Condensed::new), short of what only the factor shows.
-pub(crate) fn estimate(bodies: &[Body], surface: &ContactSurface) -> Result<Estimate, Error> {
+pub(crate) fn estimate(
+    bodies: &[Body],
+    surface: &ContactSurface,
+    wanted: Precision,
+) -> Result<Estimate, Error> {
     let dense = dense_bytes(surface)?;
     let mut found = Estimate {
         contacts: surface.nodes.len(),
         ..Estimate::default()
     };
-    let mut condensed = 0;
-    for (index, body) in bodies.iter().enumerate() {
-        let prescribed = body::prescribed(body)?;
-        let dependence = body::dependence(body)?;
-        let given = (&prescribed[..], dependence.as_ref());
-        let interface = Interface::new(surface, index, body.mesh.dimension, given);
-        let work = supported(body, (prescribed, dependence), &interface).count(&interface)?;
+    let (mut condensed, mut factors) = (0, 0);
+    let prescribed = bodies.iter().map(crate::body::prescribed);
+    let prescribed = prescribed.collect::<Result<_, _>>()?;
+    let given = given(bodies, surface, prescribed, Engine::Faer)?;
+    let precision = possible(wanted, bodies, &given);
+    for (body, (prescribed, dependence, interface)) in bodies.iter().zip(given) {
+        let supported = supported(body, (prescribed, dependence), &interface);
+        let work = supported.count(&interface, precision)?;
         found.unknowns += work.unknowns;
         found.factor_entries += work.entries;
         found.operations += work.operations;
+        factors += work.entries * work.precision.bytes();
         condensed += work.condensed;
     }
-    found.bytes = dense + 8 * found.factor_entries;
+    found.bytes = dense + factors;
     // Triangular inverses and products for G, and the factors of a Newton finish: n³/3 each.
     found.operations += 2.0 * (condensed as f64).powi(3);
     Ok(found)

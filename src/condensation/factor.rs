@@ -1,4 +1,4 @@
-//! The sparse Cholesky factor of the supported body, and its trailing block.
+//! The sparse Cholesky factor of the supported body, and what is asked of it.
 //!
 //! ```text
 //!            ordinary  contact
@@ -6,15 +6,18 @@
 //! P K' Pᵀ = L Lᵀ,   L =  [  L_co     L_cc  ]        S = L_cc L_ccᵀ  (C2)
 //! ```
 //!
-//! Supernodes are blocks of columns with one pattern, each a dense matrix: rows of its
-//! own columns first, then the rows of its pattern.
+//! Or in single precision, of the matrix whose diagonal is about one (C32): half the memory, and seven digits that
+//! (C24) makes whole.
+//!
+//! ```text
+//! (C32)  D P K' Pᵀ D = L̂ L̂ᵀ,   L = D⁻¹ L̂      D: powers of two, D_i² K'_ii in [1/2, 2]
+//! ```
 
 use std::ops::Range;
 use std::time::Instant;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
-use faer::sparse::SparseColMatRef;
 use faer::sparse::linalg::cholesky::simplicial::{
     prefactorize_symbolic_cholesky, prefactorize_symbolic_cholesky_scratch,
 };
@@ -23,15 +26,12 @@ use faer::sparse::linalg::cholesky::supernodal::{
     factorize_supernodal_numeric_llt_scratch, factorize_supernodal_symbolic_cholesky,
     factorize_supernodal_symbolic_cholesky_scratch,
 };
-use faer::{Mat, MatRef, get_global_parallelism};
-use sprs::CsMat;
+use faer::{Mat, get_global_parallelism};
 
-use super::columns::{BorderRow, Columns};
-use super::local_axes::Frames;
+use super::columns::{Columns, Matrix, Skeleton};
 use super::ordering::Ordering;
-
-/// A pivot this small against the diagonal entry it is left of is round-off.
-const SINGULAR: f64 = 1e-14;
+use super::supernodes::{Lower, Number};
+use crate::problem::inverse_of_product;
 
 /// Why there is no factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,59 +49,91 @@ pub(crate) enum Breakdown {
     },
 }
 
+/// What the entries of a factor are stored in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Precision {
+    /// Eight bytes.
+    #[default]
+    Double,
+    /// Four bytes (C32).
+    Single,
+}
+
+impl Precision {
+    /// Of an entry.
+    pub(crate) const fn bytes(self) -> usize {
+        match self {
+            Self::Double => 8,
+            Self::Single => 4,
+        }
+    }
+}
+
 /// `P K' Pᵀ = L Lᵀ`, contact unknowns last; or bordered by what contacts see of it (C17).
 #[derive(Debug)]
 pub(crate) struct Factor {
-    pub(super) symbolic: SymbolicSupernodalCholesky<usize>,
-    pub(super) values: Vec<f64>,
+    symbolic: SymbolicSupernodalCholesky<usize>,
+    entries: Entries,
     contact_unknowns: usize,
     bordered: bool,
     /// Wall time of the numeric factorisation alone, in second.
     pub(crate) numeric_seconds: f64,
 }
 
+/// Entries of L, or of L̂ with D (C32).
+#[derive(Debug)]
+enum Entries {
+    Double(Vec<f64>),
+    Single(Vec<f32>, Vec<f64>),
+}
+
+/// Does the same with a factor of either kind.
+macro_rules! with_lower {
+    ($factor:expr, $lower:ident => $do:expr) => {
+        match &$factor.entries {
+            Entries::Double(values) => {
+                let $lower = $factor.lower(values);
+                $do
+            }
+            Entries::Single(values, _) => {
+                let $lower = $factor.lower(values);
+                $do
+            }
+        }
+    };
+}
+
 impl Factor {
     /// Factorises the stiffness of the supported body, with a border where that has rows.
     pub(crate) fn new(
-        stiffness: &CsMat<f64>,
-        frames: &Frames,
-        ordering: &Ordering,
-        border: &[BorderRow],
+        matrix: &Matrix<'_>,
+        axes: usize,
+        precision: Precision,
     ) -> Result<Self, Breakdown> {
-        let columns = |keep: fn(usize, usize) -> bool| {
-            let mut columns = Columns::new(stiffness, frames, ordering, keep);
-            columns.surround(ordering, border, keep);
-            columns
-        };
-        let symbolic = analyse(&columns(|row, column| row <= column))?;
-        let lower = columns(|row, column| row >= column);
+        let symbolic = analyse(&Skeleton::new(matrix, axes))?;
         let start = Instant::now();
-        // Asked for first, because `vec!` ends the program where there is no memory.
-        Vec::<f64>::new()
-            .try_reserve_exact(symbolic.len_val())
-            .map_err(|_| Breakdown::TooLarge)?;
-        let mut values = vec![0.0; symbolic.len_val()];
-        let result = eliminate(&symbolic, &mut values, &lower);
-        let factor = Self {
-            symbolic,
-            values,
-            contact_unknowns: ordering.contact_unknowns + border.len(),
-            bordered: !border.is_empty(),
-            numeric_seconds: start.elapsed().as_secs_f64(),
-        };
-        match result? {
-            None => factor.check_pivots(&lower, ordering)?,
-            Some(column) => {
-                // In the border it is an overflow of all that came before.
-                let dof = ordering.dof.get(column).or(ordering.dof.last());
-                return Err(Breakdown::Pivot {
-                    dof: dof.copied().unwrap_or_default(),
-                    pivot: f64::NAN,
-                    diagonal: lower.diagonal(column),
-                });
+        let entries = match precision {
+            Precision::Double => Entries::Double(eliminate(&symbolic, matrix, None)?),
+            Precision::Single => {
+                let scale = unit_scale(&matrix.diagonal());
+                Entries::Single(eliminate(&symbolic, matrix, Some(&scale))?, scale)
             }
+        };
+        Ok(Self {
+            symbolic,
+            entries,
+            contact_unknowns: matrix.ordering.contact_unknowns + matrix.border.len(),
+            bordered: !matrix.border.is_empty(),
+            numeric_seconds: start.elapsed().as_secs_f64(),
+        })
+    }
+
+    fn lower<'a, T>(&'a self, values: &'a [T]) -> Lower<'a, T> {
+        Lower {
+            symbolic: &self.symbolic,
+            values,
+            contact_unknowns: self.contact_unknowns,
         }
-        Ok(factor)
     }
 
     /// Contacts see it over a border (C17).
@@ -116,7 +148,15 @@ impl Factor {
 
     /// Number of stored entries of L.
     pub(crate) fn entries(&self) -> usize {
-        self.values.len()
+        self.symbolic.len_val()
+    }
+
+    /// What they are stored in.
+    pub(crate) fn precision(&self) -> Precision {
+        match self.entries {
+            Entries::Double(_) => Precision::Double,
+            Entries::Single(..) => Precision::Single,
+        }
     }
 
     /// Number of contact unknowns or rows of the border, the last ones.
@@ -124,117 +164,86 @@ impl Factor {
         self.contact_unknowns
     }
 
-    /// `L_cc`, the lower triangle of the trailing block (C2).
-    pub(crate) fn trailing_block(&self) -> Mat<f64> {
-        let ordinary = self.unknowns() - self.contact_unknowns;
-        let mut block = Mat::zeros(self.contact_unknowns, self.contact_unknowns);
-        for index in self.first_contact_supernode()..self.symbolic.n_supernodes() {
-            let supernode = self.supernode(index);
-            let end = supernode.start + supernode.width;
-            for column in supernode.start.max(ordinary)..end {
-                let entries = supernode.column(column - supernode.start);
-                let target = block.col_as_slice_mut(column - ordinary);
-                let own = column - supernode.start;
-                target[column - ordinary..end - ordinary]
-                    .copy_from_slice(&entries[own..supernode.width]);
-                for (&row, &entry) in supernode.pattern.iter().zip(&entries[supernode.width..]) {
-                    target[row - ordinary] = entry;
-                }
+    /// G of the contact unknowns, `S⁻¹` (C2) or `W Wᵀ` (C17), in m/N; both triangles are filled.
+    pub(crate) fn compliance(&self) -> Mat<f64> {
+        if self.bordered {
+            return with_lower!(self, lower => lower.border_compliance());
+        }
+        match &self.entries {
+            Entries::Double(values) => inverse_of_product(self.lower(values).trailing_block()),
+            Entries::Single(values, scale) => {
+                let of_scaled = inverse_of_product(self.lower(values).trailing_block());
+                let scale = &scale[self.unknowns() - self.contact_unknowns..];
+                let entry = |i, j| scale[i] * scale[j] * f64::from(of_scaled[(i, j)]);
+                Mat::from_fn(scale.len(), scale.len(), entry)
             }
         }
-        block
     }
 
-    /// The supernode that holds the first contact unknown.
-    pub(super) fn first_contact_supernode(&self) -> usize {
+    /// `L_cc` of (C2), of a factor in double precision.
+    pub(crate) fn trailing_block(&self) -> Option<Mat<f64>> {
+        match &self.entries {
+            Entries::Double(values) if !self.bordered => Some(self.lower(values).trailing_block()),
+            _ => None,
+        }
+    }
+
+    /// `x ← L⁻¹ x`.
+    pub(crate) fn forward(&self, x: &mut [f64]) {
+        self.scale(0..x.len(), x);
+        with_lower!(self, lower => lower.forward_over(lower.all(), self.unknowns(), x));
+    }
+
+    /// `x_o ← L⁻¹ x_o`, `x_c ← x_c − W x_o` with the border W (C17).
+    pub(crate) fn forward_before_contact(&self, x: &mut [f64]) {
+        with_lower!(self, lower => lower.forward_over(lower.of_ordinary(), lower.ordinary(), x));
+    }
+
+    /// `x ← L⁻¹ x` for an `x` that vanishes before the contact unknowns.
+    pub(crate) fn forward_on_contact(&self, x: &mut [f64]) {
+        self.scale(self.unknowns() - self.contact_unknowns..x.len(), x);
+        with_lower!(self, lower => lower.forward_over(lower.of_contacts(), self.unknowns(), x));
+    }
+
+    /// `x ← L⁻ᵀ x`.
+    pub(crate) fn backward(&self, x: &mut [f64]) {
+        with_lower!(self, lower => lower.backward_over(lower.all(), self.unknowns(), x));
+        self.scale(0..x.len(), x);
+    }
+
+    /// `x_o ← L⁻ᵀ (x_o − Wᵀ x_c)` with the border W (C17).
+    pub(crate) fn backward_before_contact(&self, x: &mut [f64]) {
+        with_lower!(self, lower => lower.backward_over(lower.of_ordinary(), lower.ordinary(), x));
+    }
+
+    /// The contact part of `L⁻ᵀ x`, which is `L_cc⁻ᵀ x_c`; `x` is overwritten.
+    pub(crate) fn backward_on_contact<'x>(&self, x: &'x mut [f64]) -> &'x [f64] {
+        with_lower!(self, lower => lower.backward_over(lower.of_contacts(), self.unknowns(), x));
         let ordinary = self.unknowns() - self.contact_unknowns;
-        let ends = self.symbolic.supernode_end();
-        ends.partition_point(|&end| end <= ordinary)
+        self.scale(ordinary..x.len(), x);
+        &x[ordinary..]
     }
 
-    /// The supernodes that hold an ordinary unknown, and perhaps one more.
-    pub(super) fn ordinary_supernodes(&self) -> Range<usize> {
-        0..(self.first_contact_supernode() + 1).min(self.symbolic.n_supernodes())
-    }
-
-    /// Supernode number `index`.
-    pub(super) fn supernode(&self, index: usize) -> Supernode<'_> {
-        let symbolic = self.symbolic.supernode(index);
-        let start = symbolic.start();
-        let values = self.symbolic.col_ptr_for_val();
-        Supernode {
-            start,
-            width: self.symbolic.supernode_end()[index] - start,
-            pattern: symbolic.pattern(),
-            values: &self.values[values[index]..values[index + 1]],
+    /// `x ← D x` at some positions (C32).
+    fn scale(&self, at: Range<usize>, x: &mut [f64]) {
+        if let Entries::Single(_, scale) = &self.entries {
+            let pairs = x[at.clone()].iter_mut().zip(&scale[at]);
+            pairs.for_each(|(x, d)| *x *= d);
         }
-    }
-
-    /// Refuses a factor whose pivots are round-off: the body can move without force.
-    fn check_pivots(&self, lower: &Columns, ordering: &Ordering) -> Result<(), Breakdown> {
-        for index in 0..self.symbolic.n_supernodes() {
-            let supernode = self.supernode(index);
-            // Those of a border are what C is.
-            for own in 0..supernode.width_before(ordering.unknowns()) {
-                let pivot = supernode.column(own)[own].powi(2);
-                let column = supernode.start + own;
-                let diagonal = lower.diagonal(column);
-                let sound = pivot > SINGULAR * diagonal && pivot.is_finite();
-                if !sound {
-                    let dof = ordering.dof[column];
-                    return Err(Breakdown::Pivot {
-                        dof,
-                        pivot,
-                        diagonal,
-                    });
-                }
-            }
-        }
-        Ok(())
     }
 }
 
-/// One supernode: a dense matrix, its own columns' rows first, then its pattern's.
-#[derive(Clone, Copy)]
-pub(super) struct Supernode<'a> {
-    pub(super) start: usize,
-    pub(super) width: usize,
-    pub(super) pattern: &'a [usize],
-    values: &'a [f64],
-}
-
-impl<'a> Supernode<'a> {
-    /// Number of rows.
-    pub(super) fn height(&self) -> usize {
-        self.width + self.pattern.len()
-    }
-
-    /// Number of its columns before an unknown; they come first.
-    pub(super) fn width_before(&self, unknown: usize) -> usize {
-        unknown.saturating_sub(self.start).min(self.width)
-    }
-
-    /// Its rows from an unknown on, counted from there: they are the last ones.
-    pub(super) fn rows_from(&self, unknown: usize) -> Vec<usize> {
-        let own = self.start..self.start + self.width;
-        let rows = own.chain(self.pattern.iter().copied());
-        rows.filter_map(|row| row.checked_sub(unknown)).collect()
-    }
-
-    /// Its first columns, as many as `columns`, in the last rows, as many as `rows`.
-    pub(super) fn lowest(&self, rows: usize, columns: usize) -> MatRef<'a, f64> {
-        let values = &self.values[self.height() - rows..];
-        MatRef::from_column_major_slice_with_stride(values, rows, columns, self.height())
-    }
-
-    /// One of its columns.
-    pub(super) fn column(&self, own: usize) -> &'a [f64] {
-        &self.values[own * self.height()..(own + 1) * self.height()]
-    }
+/// D of (C32).
+fn unit_scale(diagonal: &[f64]) -> Vec<f64> {
+    let of_one = |&entry: &f64| match entry > 0.0 && entry.is_finite() {
+        true => (-0.5 * entry.log2()).round().exp2(),
+        false => 1.0,
+    };
+    diagonal.iter().map(of_one).collect()
 }
 
 /// Where L has entries, in supernodes.
-fn analyse(upper: &Columns) -> Result<SymbolicSupernodalCholesky<usize>, Breakdown> {
+fn analyse(upper: &Skeleton) -> Result<SymbolicSupernodalCholesky<usize>, Breakdown> {
     let pattern = upper.pattern();
     let size = pattern.ncols();
     let mut tree = vec![0_isize; size];
@@ -257,16 +266,8 @@ fn analyse(upper: &Columns) -> Result<SymbolicSupernodalCholesky<usize>, Breakdo
 }
 
 /// Entries of the factor of a supported body, and the multiplications that it takes, each with an addition.
-pub(super) fn count(
-    stiffness: &CsMat<f64>,
-    frames: &Frames,
-    ordering: &Ordering,
-    border: &[BorderRow],
-) -> Result<(usize, f64), Breakdown> {
-    let upper = |row: usize, column: usize| row <= column;
-    let mut columns = Columns::new(stiffness, frames, ordering, upper);
-    columns.surround(ordering, border, upper);
-    let symbolic = analyse(&columns)?;
+pub(super) fn count(matrix: &Matrix<'_>, axes: usize) -> Result<(usize, f64), Breakdown> {
+    let symbolic = analyse(&Skeleton::new(matrix, axes))?;
     let operations = (0..symbolic.n_supernodes()).map(|index| {
         let supernode = symbolic.supernode(index);
         let width = symbolic.supernode_end()[index] - supernode.start();
@@ -277,30 +278,160 @@ pub(super) fn count(
     Ok((symbolic.len_val(), operations.sum()))
 }
 
-/// Fills in the values of L; some column if its pivot is not positive.
-fn eliminate(
+/// The values of L, or of L̂ with the factors D.
+fn eliminate<T: Number>(
     symbolic: &SymbolicSupernodalCholesky<usize>,
-    values: &mut [f64],
-    lower: &Columns,
-) -> Result<Option<usize>, Breakdown> {
+    matrix: &Matrix<'_>,
+    scale: Option<&[f64]>,
+) -> Result<Vec<T>, Breakdown> {
+    let lower = Columns::new(matrix, scale);
+    // Asked for first, because `vec!` ends the program where there is no memory.
+    Vec::<T>::new()
+        .try_reserve_exact(symbolic.len_val())
+        .map_err(|_| Breakdown::TooLarge)?;
+    let mut values = vec![T::nearest(0.0); symbolic.len_val()];
     let parallelism = get_global_parallelism();
-    let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(
+    let scratch = factorize_supernodal_numeric_llt_scratch::<usize, T>(
         symbolic,
         parallelism,
         Default::default(),
     );
     let mut memory = MemBuffer::try_new(scratch).map_err(|_| Breakdown::TooLarge)?;
     let result = factorize_supernodal_numeric_llt(
-        values,
-        SparseColMatRef::new(lower.pattern(), &lower.values),
+        &mut values,
+        lower.as_matrix(),
         Default::default(),
         symbolic,
         parallelism,
         MemStack::new(&mut memory),
         Default::default(),
     );
-    Ok(match result {
-        Ok(_) => None,
-        Err(LltError::NonPositivePivot { index }) => Some(index),
-    })
+    let unit = |column: usize| scale.map_or(1.0, |scale| scale[column].powi(-2));
+    if let Err(LltError::NonPositivePivot { index }) = result {
+        // In the border it is an overflow of all that came before.
+        let dof = matrix
+            .ordering
+            .dof
+            .get(index)
+            .or(matrix.ordering.dof.last());
+        return Err(Breakdown::Pivot {
+            dof: dof.copied().unwrap_or_default(),
+            pivot: f64::NAN,
+            diagonal: unit(index) * lower.diagonal(index),
+        });
+    }
+    let factor = Lower {
+        symbolic,
+        values: &values,
+        contact_unknowns: 0,
+    };
+    check_pivots(&factor, &lower, (matrix.ordering, unit))?;
+    Ok(values)
+}
+
+/// Refuses a factor whose pivots are round-off: the body can move without force, or single precision cannot tell.
+fn check_pivots<T: Number>(
+    factor: &Lower<'_, T>,
+    lower: &Columns<T>,
+    (ordering, unit): (&Ordering, impl Fn(usize) -> f64),
+) -> Result<(), Breakdown> {
+    for index in factor.all() {
+        let supernode = factor.supernode(index);
+        // Those of a border are what C is.
+        for own in 0..supernode.width_before(ordering.unknowns()) {
+            let entry: f64 = supernode.column(own)[own].into();
+            let pivot = entry.powi(2);
+            let column = supernode.start + own;
+            let diagonal = lower.diagonal(column);
+            let sound = pivot > T::SINGULAR * diagonal && pivot.is_finite();
+            if !sound {
+                return Err(Breakdown::Pivot {
+                    dof: ordering.dof[column],
+                    pivot: unit(column) * pivot,
+                    diagonal: unit(column) * diagonal,
+                });
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+    use super::*;
+    use crate::condensation::local_axes::Frames;
+    use crate::condensation::ordering::Role;
+    use crate::condensation::tests::lattice::Lattice;
+
+    /// Factors of a lattice in a unit, held at its bottom, with its top for contacts.
+    fn factors(unit: f64) -> [Factor; 2] {
+        let lattice = Lattice::new([5, 4, 3]);
+        let stiffness = lattice.stiffness().map(|k| unit * k);
+        let height = |dof: usize| lattice.position(dof / 3)[2];
+        let role = |dof| match height(dof) {
+            0.0 => Role::Held,
+            3.0 => Role::Contact,
+            _ => Role::Ordinary,
+        };
+        let roles: Vec<Role> = (0..3 * lattice.nodes()).map(role).collect();
+        let contact = (0..roles.len()).filter(|&dof| roles[dof] == Role::Contact);
+        let contact: Vec<usize> = contact.collect();
+        let ordering = Ordering::new(&stiffness, (&[], 3), &roles, &contact).unwrap();
+        let matrix = Matrix {
+            stiffness: &stiffness,
+            frames: &Frames::new(3, lattice.nodes(), &[]),
+            ordering: &ordering,
+            border: &[],
+        };
+        [Precision::Double, Precision::Single]
+            .map(|precision| Factor::new(&matrix, 3, precision).unwrap())
+    }
+
+    fn assert_seven_digits(found: &[f64], expected: &[f64]) {
+        let largest = expected.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let pairs = found.iter().zip(expected);
+        let off = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
+        assert!(off < 1e-5 * largest && off > 0.0, "{off:e} of {largest:e}");
+    }
+
+    #[test]
+    fn single_precision_has_seven_digits_whatever_the_unit() {
+        // Beyond what four bytes can hold, but for the scale (C32).
+        for unit in [1e-60, 1.0, 1e60] {
+            let factors = factors(unit);
+            let [double, single] = factors.each_ref();
+            let solved = [double, single].map(|factor| {
+                let mut x: Vec<f64> = (0..factor.unknowns()).map(|k| (k as f64).sin()).collect();
+                factor.forward(&mut x);
+                factor.backward(&mut x);
+                x
+            });
+            assert_seven_digits(&solved[1], &solved[0]);
+            let on_contact = [double, single].map(|factor| {
+                let ordinary = factor.unknowns() - factor.contact_unknowns();
+                let mut x = vec![0.0; factor.unknowns()];
+                x[ordinary..].fill(1.0);
+                factor.forward_on_contact(&mut x);
+                factor.backward_on_contact(&mut x).to_vec()
+            });
+            assert_seven_digits(&on_contact[1], &on_contact[0]);
+            let [expected, found] = [double, single].map(Factor::compliance);
+            assert_seven_digits(found.col_as_slice(7), expected.col_as_slice(7));
+            // Forces on contacts alone move them by G.
+            let rows = expected.row_iter().map(|row| row.iter().sum::<f64>());
+            let moved: Vec<f64> = rows.collect();
+            let largest = moved.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+            let pairs = moved.iter().zip(&on_contact[0]);
+            assert!(pairs.fold(0.0, |most: f64, (a, b)| most.max((a - b).abs())) < 1e-12 * largest);
+        }
+    }
+
+    #[test]
+    fn half_the_bytes() {
+        let [double, single] = factors(1.0);
+        assert_eq!(double.entries(), single.entries());
+        let bytes = [double, single].map(|factor| factor.precision().bytes());
+        assert_eq!(bytes, [8, 4]);
+    }
 }

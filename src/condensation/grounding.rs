@@ -22,7 +22,7 @@ pub(super) struct Grounding {
     /// Displacement per degree of freedom (`node · dimension + axis`) and mode.
     pub(super) modes: Mat<f64>,
     /// Degrees of freedom that a spring holds, one per mode.
-    springs: Vec<usize>,
+    pub(super) springs: Vec<usize>,
     /// The modes in numbers, with the size of their part, in metre.
     pub(super) rigid: Vec<(RigidMode, f64)>,
 }

@@ -50,6 +50,26 @@ impl Interface {
         surface: &ContactSurface,
         index: usize,
         dimension: usize,
+        held: (&[Option<f64>], Option<&Dependence>),
+    ) -> Self {
+        Self::where_many(MANY, surface, index, dimension, held)
+    }
+
+    /// The same over a border (C17), however many unknowns the nodes have.
+    pub(super) fn bordered(
+        surface: &ContactSurface,
+        index: usize,
+        dimension: usize,
+        held: (&[Option<f64>], Option<&Dependence>),
+    ) -> Self {
+        Self::where_many(0, surface, index, dimension, held)
+    }
+
+    fn where_many(
+        many: usize,
+        surface: &ContactSurface,
+        index: usize,
+        dimension: usize,
         (prescribed, tied): (&[Option<f64>], Option<&Dependence>),
     ) -> Self {
         let (order, touches) = touches(surface, index);
@@ -110,7 +130,7 @@ impl Interface {
             unknowns,
         };
         let bordering = seen.iter().filter(|row| !row.is_empty()).count();
-        if MANY * bordering <= unknowns || depends {
+        if many * bordering <= unknowns || depends {
             interface.look_over(seen);
         }
         interface
@@ -157,6 +177,13 @@ impl Interface {
             let given = given.iter();
             *u += given.map(|&(dof, b)| b * action.given(dof)).sum::<f64>()
                 + row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
+        }
+    }
+
+    /// Adds `B_k v_k` (C11) alone.
+    pub(super) fn add_own_displacement(&self, of_body: &[f64], displacement: &mut [f64]) {
+        for (u, row) in displacement.iter_mut().zip(&self.rows) {
+            *u += row.iter().map(|&(k, b)| b * of_body[k]).sum::<f64>();
         }
     }
 

@@ -111,21 +111,24 @@ impl Condensed {
 
     /// (C14).
     pub(super) fn reference(&self, obstacles: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
-        let mut reference = slip.to_vec();
         let given = self.carried.motions(&[]);
         let mut moved = self.surface.obstacle_motions(obstacles);
         self.carried.put(&given, &mut moved);
+        self.along_contacts(&moved, slip)
+    }
+
+    /// Displacement of the other side per contact, in its directions, and along tangents this slip.
+    pub(super) fn along_contacts(&self, moved: &[[f64; 3]], slip: &[f64]) -> Vec<f64> {
+        let mut along = slip.to_vec();
         let contacts = self.surface.nodes.iter().zip(moved);
         for ((contact, moved), &first) in contacts.zip(self.problem.normals()) {
-            reference[first] = 0.0;
-            for (row, entry) in contact.frame[..=contact.tangents]
-                .iter()
-                .zip(&mut reference[first..])
-            {
+            along[first] = 0.0;
+            let rows = contact.frame[..=contact.tangents].iter();
+            for (row, entry) in rows.zip(&mut along[first..]) {
                 *entry += row.iter().zip(moved).map(|(n, d)| n * d).sum::<f64>();
             }
         }
-        reference
+        along
     }
 }
 
@@ -142,33 +145,27 @@ mod tests {
     fn pressed(moved: f64, pressure: f64, plane: f64) -> (Body, ContactPair) {
         let mut body = distorted(CellKind::Hex8);
         let right = facets(&body.mesh, "right");
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: right.into_iter().flat_map(|facet| facet.nodes).collect(),
-            displacement: [Some(0.0), Some(moved), Some(0.0)],
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
+        body.supports.push(Support::new(
+            "supports[0]",
+            right.into_iter().flat_map(|facet| facet.nodes).collect(),
+            [Some(0.0), Some(moved), Some(0.0)],
+        ));
         let facets_of = |side| facets(&body.mesh, side);
         let (top, bottom) = (facets_of("top"), facets_of("bottom"));
         body.loads = vec![Load::Pressure {
             facets: top,
             pressure,
         }];
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: bottom,
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            bottom,
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0, 0.0, plane],
                 normal: [0.0, 0.0, 1.0],
             }),
-            friction: 0.0,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.0,
+        );
         (body, pair)
     }
 

@@ -5,11 +5,13 @@
 //! contact unknowns    →  last, in the order of the contact problem
 //! ```
 //!
+//! Where the nodes are a lattice, `dissection` stands for METIS.
+//!
 //! METIS orders nodes, not unknowns: the unknowns of a node have the same neighbours.
 //! G. Karypis & V. Kumar, A fast and high quality multilevel scheme for partitioning
 //! irregular graphs, SIAM J. Sci. Comput. 20 (1998) 359–392.
 //!
-//! The only file that calls C.
+//! The only file that calls C, but for `mumps/face`.
 #![allow(unsafe_code)]
 
 use std::sync::{Mutex, PoisonError};
@@ -20,6 +22,7 @@ use metis_sys::{
 };
 use sprs::CsMat;
 
+use super::dissection;
 use super::elimination_tree::{Graph, postorder};
 
 /// Not an unknown: the displacement is prescribed.
@@ -50,16 +53,17 @@ pub(crate) struct Ordering {
 impl Ordering {
     /// Orders the unknowns of a body; none if METIS runs out of memory or of index range.
     ///
-    /// `contact` lists the degrees of freedom with [`Role::Contact`] in the order of the
+    /// `positions` are those of its nodes, in metre, and `contact` lists the degrees of freedom with [`Role::Contact`] in the order of the
     /// contact problem.
     pub(crate) fn new(
         stiffness: &CsMat<f64>,
-        dimension: usize,
+        (positions, dimension): (&[[f64; 3]], usize),
         roles: &[Role],
         contact: &[usize],
     ) -> Option<Self> {
         let (nodes, graph) = ordinary_graph(stiffness, dimension, roles)?;
-        let dissected = dissect(&graph)?;
+        let by_coordinates = dissection::dissect(positions, &nodes, &graph);
+        let dissected = by_coordinates.or_else(|| dissect(&graph))?;
         let mut dof = Vec::with_capacity(roles.len());
         for vertex in postorder(&graph, &dissected) {
             let first = nodes[vertex] * dimension;
@@ -177,7 +181,7 @@ mod tests {
         let contact = [40, 7, 6, 100];
         contact.iter().for_each(|&dof| roles[dof] = Role::Contact);
         roles[13] = Role::Held;
-        let ordering = Ordering::new(&lattice.stiffness(), 2, &roles, &contact).unwrap();
+        let ordering = Ordering::new(&lattice.stiffness(), (&[], 2), &roles, &contact).unwrap();
         assert_eq!(ordering.dof[ordering.ordinary()..], contact);
         assert_eq!(ordering.unknowns(), roles.len() - 1);
         assert_eq!(ordering.position[13], HELD);
@@ -191,7 +195,11 @@ mod tests {
         let stiffness = Lattice::new([20, 20, 0]).stiffness();
         let roles = vec![Role::Ordinary; stiffness.rows()];
         let runs: Vec<_> = std::thread::scope(|scope| {
-            let run = || Ordering::new(&stiffness, 2, &roles, &[]).unwrap().dof;
+            let run = || {
+                Ordering::new(&stiffness, (&[], 2), &roles, &[])
+                    .unwrap()
+                    .dof
+            };
             let threads: Vec<_> = (0..4).map(|_| scope.spawn(run)).collect();
             threads.into_iter().map(|t| t.join().unwrap()).collect()
         });
@@ -205,7 +213,8 @@ mod tests {
         (0..6).for_each(|d| entries.add_triplet(d, d, 1.0));
         entries.add_triplet(2, 5, -0.5);
         entries.add_triplet(5, 2, -0.5);
-        let ordering = Ordering::new(&entries.to_csr(), 2, &[Role::Ordinary; 6], &[]).unwrap();
+        let ordering =
+            Ordering::new(&entries.to_csr(), (&[], 2), &[Role::Ordinary; 6], &[]).unwrap();
         let mut sorted = ordering.dof;
         sorted.sort_unstable();
         assert_eq!(sorted, [0, 1, 2, 3, 4, 5]);
@@ -215,7 +224,7 @@ mod tests {
     fn a_body_whose_nodes_are_all_on_the_contact_has_no_ordinary_unknown() {
         let stiffness = Lattice::new([1, 1, 0]).stiffness();
         let contact: Vec<usize> = (0..8).rev().collect();
-        let ordering = Ordering::new(&stiffness, 2, &[Role::Contact; 8], &contact).unwrap();
+        let ordering = Ordering::new(&stiffness, (&[], 2), &[Role::Contact; 8], &contact).unwrap();
         assert_eq!((ordering.ordinary(), ordering.dof), (0, contact));
     }
 }

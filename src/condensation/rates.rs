@@ -21,6 +21,17 @@ pub struct BodyRate {
     action: Action,
 }
 
+/// What contacts see of a unit of a factor of a rigid body's component.
+#[derive(Debug)]
+pub(crate) struct RigidRate {
+    /// Change of the displacement beyond the gaps, per contact unknown.
+    pub(crate) beyond: Vec<f64>,
+    /// Change of the load on every free mode.
+    pub(crate) load: Vec<f64>,
+    /// Motion of the other side per contact, in metre.
+    pub(crate) sides: Vec<[f64; 3]>,
+}
+
 impl Condensed {
     /// Of the factor of a load or support.
     ///
@@ -64,10 +75,34 @@ impl Condensed {
     /// Change of the free displacement per metre of an obstacle's motion along an axis, per contact unknown.
     #[must_use]
     pub fn rate_of_obstacle(&self, pair: usize, axis: usize) -> Vec<f64> {
-        let mut moved = vec![[0.0; 3]; pair + 1];
-        moved[pair][axis] = 1.0;
-        let reference = self.reference(&moved, &vec![0.0; self.problem.unknowns()]);
-        reference.into_iter().map(|u| -u).collect()
+        let mut moved = vec![[0.0; 3]; self.surface.nodes.len()];
+        for (moved, contact) in moved.iter_mut().zip(&self.surface.nodes) {
+            if contact.pair == pair {
+                moved[axis] = 1.0;
+            }
+        }
+        self.left_behind(&moved)
+    }
+
+    /// Of the factor of a component of a rigid body.
+    #[must_use]
+    pub(crate) fn rate_of_rigid(&self, body: usize, component: usize) -> RigidRate {
+        let (motions, of_rigid) = self.carried.rate_of(body, component);
+        let mut sides = vec![[0.0; 3]; self.surface.nodes.len()];
+        self.carried.put(&motions, &mut sides);
+        let mut load = vec![0.0; self.problem.free_modes() - of_rigid.len()];
+        load.extend(of_rigid);
+        RigidRate {
+            beyond: self.left_behind(&sides),
+            load,
+            sides,
+        }
+    }
+
+    /// Change of the displacement relative to the other side, per contact unknown, where that side moves.
+    fn left_behind(&self, moved: &[[f64; 3]]) -> Vec<f64> {
+        let along = self.along_contacts(moved, &vec![0.0; self.problem.unknowns()]);
+        along.into_iter().map(|u| -u).collect()
     }
 
     /// Change of the free displacement, per contact unknown, and of the load on every free mode.
@@ -82,7 +117,9 @@ impl Condensed {
             false => &[],
         };
         let loads: Vec<&[f64]> = (0..self.bodies.len()).map(load).collect();
-        (free, mode_loads(&groundings, &loads))
+        let mut load = mode_loads(&groundings, &loads);
+        load.resize(self.problem.free_modes(), 0.0);
+        (free, load)
     }
 
     /// Change of every displacement of every body, in metre, with reactions and motions that change by these; one

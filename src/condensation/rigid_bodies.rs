@@ -288,20 +288,16 @@ mod tests {
     /// The block of 2 × 1 m (2D) on a floor, free.
     fn loose() -> (Body, RigidBodies) {
         let body = block(CellKind::Quad4);
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            body: 0,
-            facets: facets(&body.mesh, "bottom"),
-            opposite: Opposite::Obstacle(Obstacle::Plane {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&body.mesh, "bottom"),
+            Opposite::Obstacle(Obstacle::Plane {
                 point: [0.0; 3],
                 normal: [0.0, 1.0, 0.0],
             }),
-            friction: 0.5,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.5,
+        );
         let rigid = RigidBodies::new(std::slice::from_ref(&body), &[pair], &[]).unwrap();
         (body, rigid)
     }

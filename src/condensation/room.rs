@@ -3,7 +3,7 @@
 use crate::contact::ContactSurface;
 use crate::error::Error;
 
-/// The compliance G, the factor that it comes from, and its inverse S.
+/// The compliance G, the matrix of a Newton step on it, and what half-steps hold.
 const MATRICES: usize = 3;
 
 /// Bytes that any machine has.

@@ -6,50 +6,15 @@
 //! ```
 //!
 //! One right-hand side reads every entry of L once, so memory sets the speed. A
-//! supernode works on a dense copy of the entries it touches.
+//! supernode works on a dense copy of the entries it touches, in double precision whatever L is stored in.
 
 use std::ops::Range;
 
-use super::factor::Factor;
+use super::supernodes::{Lower, Number};
 
-impl Factor {
-    /// `x ← L⁻¹ x`.
-    pub(crate) fn forward(&self, x: &mut [f64]) {
-        self.forward_over(0..self.symbolic.n_supernodes(), self.unknowns(), x);
-    }
-
-    /// `x_o ← L⁻¹ x_o`, `x_c ← x_c − W x_o` with the border W (C17).
-    pub(crate) fn forward_before_contact(&self, x: &mut [f64]) {
-        let ordinary = self.unknowns() - self.contact_unknowns();
-        self.forward_over(self.ordinary_supernodes(), ordinary, x);
-    }
-
-    /// `x ← L⁻¹ x` for an `x` that vanishes before the contact unknowns.
-    pub(crate) fn forward_on_contact(&self, x: &mut [f64]) {
-        let contact = self.first_contact_supernode()..self.symbolic.n_supernodes();
-        self.forward_over(contact, self.unknowns(), x);
-    }
-
-    /// `x ← L⁻ᵀ x`.
-    pub(crate) fn backward(&self, x: &mut [f64]) {
-        self.backward_over(0..self.symbolic.n_supernodes(), self.unknowns(), x);
-    }
-
-    /// `x_o ← L⁻ᵀ (x_o − Wᵀ x_c)` with the border W (C17).
-    pub(crate) fn backward_before_contact(&self, x: &mut [f64]) {
-        let ordinary = self.unknowns() - self.contact_unknowns();
-        self.backward_over(self.ordinary_supernodes(), ordinary, x);
-    }
-
-    /// The contact part of `L⁻ᵀ x`, which is `L_cc⁻ᵀ x_c`; `x` is overwritten.
-    pub(crate) fn backward_on_contact<'x>(&self, x: &'x mut [f64]) -> &'x [f64] {
-        let contact = self.first_contact_supernode()..self.symbolic.n_supernodes();
-        self.backward_over(contact, self.unknowns(), x);
-        &x[self.unknowns() - self.contact_unknowns()..]
-    }
-
+impl<T: Number> Lower<'_, T> {
     /// Through the columns before `end` of some supernodes.
-    fn forward_over(&self, supernodes: Range<usize>, end: usize, x: &mut [f64]) {
+    pub(super) fn forward_over(&self, supernodes: Range<usize>, end: usize, x: &mut [f64]) {
         let mut work = Vec::new();
         for index in supernodes {
             let supernode = self.supernode(index);
@@ -60,9 +25,11 @@ impl Factor {
             for j in 0..supernode.width_before(end) {
                 let (above, below) = work.split_at_mut(j + 1);
                 let column = supernode.column(j);
-                let value = above[j] / column[j];
+                let pivot: f64 = column[j].into();
+                let value = above[j] / pivot;
                 above[j] = value;
-                for (w, l) in below.iter_mut().zip(&column[j + 1..]) {
+                for (w, &l) in below.iter_mut().zip(&column[j + 1..]) {
+                    let l: f64 = l.into();
                     *w -= l * value;
                 }
             }
@@ -74,7 +41,7 @@ impl Factor {
     }
 
     /// Through the columns before `end` of some supernodes, last first.
-    fn backward_over(&self, supernodes: Range<usize>, end: usize, x: &mut [f64]) {
+    pub(super) fn backward_over(&self, supernodes: Range<usize>, end: usize, x: &mut [f64]) {
         let mut work = Vec::new();
         for index in supernodes.rev() {
             let supernode = self.supernode(index);
@@ -90,7 +57,8 @@ impl Factor {
             }
             for j in (0..width).rev() {
                 let column = &supernode.column(j)[..supernode.width];
-                top[j] = (top[j] - dot(&column[j + 1..], &top[j + 1..])) / column[j];
+                let pivot: f64 = column[j].into();
+                top[j] = (top[j] - dot(&column[j + 1..], &top[j + 1..])) / pivot;
             }
             x[own].copy_from_slice(top);
         }
@@ -98,15 +66,17 @@ impl Factor {
 }
 
 /// Inner product in eight running sums, which the processor adds side by side.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+fn dot<T: Number>(a: &[T], b: &[f64]) -> f64 {
     let (a_blocks, a_rest) = a.as_chunks::<8>();
     let (b_blocks, b_rest) = b.as_chunks::<8>();
     let mut sums = [0.0; 8];
     for (x, y) in a_blocks.iter().zip(b_blocks) {
         for lane in 0..8 {
-            sums[lane] += x[lane] * y[lane];
+            let x: f64 = x[lane].into();
+            sums[lane] += x * y[lane];
         }
     }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
+    let rest = a_rest.iter().zip(b_rest);
+    let rest: f64 = rest.map(|(&x, y)| Into::<f64>::into(x) * y).sum();
     sums.iter().sum::<f64>() + rest
 }

@@ -5,18 +5,23 @@ use std::time::Instant;
 use faer::Mat;
 use sprs::CsMat;
 
-use super::CondensationWork;
+use super::columns::Matrix;
 use super::condensed_body::{CondensedBody, FactoredBody};
-use super::factor::{Breakdown, Factor, count};
+use super::engine::{BodyFactor, By};
+use super::factor::{Breakdown, Factor, Precision, count};
 use super::grounding::Grounding;
 use super::interface::Interface;
 use super::load_case::Given;
 use super::local_axes::{Frames, InterfaceNode};
+use super::mumps::{Divided, Refusal, Whole};
 use super::ordering::{Ordering, Role};
-use crate::body::Dependence;
+use super::work::{CondensationWork, Fallback};
+use crate::body::{Body, Dependence};
 use crate::error::Error;
-use crate::problem::Operator;
 use crate::stage::Stage;
+
+/// Unknowns from which on a factor in single precision pays.
+const WORTH: usize = 8_000;
 
 /// The assembled body, before it is condensed.
 pub(super) struct SupportedBody<'a> {
@@ -39,33 +44,18 @@ pub(super) struct Counted {
     pub(super) entries: usize,
     /// Multiplications, each with an addition.
     pub(super) operations: f64,
-}
-
-/// What a body is for its interface, as the factor gives it.
-pub(super) enum OfInterface {
-    /// `L_cc` of (C2).
-    Factor(Mat<f64>),
-    /// G of (C17).
-    Compliance(Mat<f64>),
-}
-
-impl OfInterface {
-    /// G; it costs a triangular inverse and half a product where there is a factor.
-    pub(super) fn operator(self) -> Result<Operator, Error> {
-        match self {
-            Self::Factor(factor) => Ok(Operator::from_factor(factor)),
-            Self::Compliance(compliance) => Operator::from_bodies(compliance),
-        }
-    }
+    /// That the entries will have.
+    pub(super) precision: Precision,
 }
 
 impl SupportedBody<'_> {
-    /// Orders, factorises and condenses onto the interface.
+    /// Orders, factorises and condenses onto the interface: the body, and its G there, in m/N.
     pub(super) fn condense(
         self,
         interface: &Interface,
+        by: By<'_>,
         work: &mut CondensationWork,
-    ) -> Result<(CondensedBody, OfInterface), Error> {
+    ) -> Result<(CondensedBody, Mat<f64>), Error> {
         Stage::Ordering.begin();
         let start = Instant::now();
         let nodes = interface.condensed_nodes();
@@ -74,28 +64,37 @@ impl SupportedBody<'_> {
         let tied = self.dependence.as_ref();
         let reduced = tied.map(|tied| tied.reduce(&self.stiffness));
         let stiffness = reduced.as_ref().unwrap_or(&self.stiffness);
-        let ordering = Ordering::new(stiffness, self.dimension, &roles, &contact)
+        let ordering = Ordering::new(stiffness, (self.nodes, self.dimension), &roles, &contact)
             .ok_or_else(|| self.too_large("ordering"))?;
         work.ordering_seconds += start.elapsed().as_secs_f64();
 
         Stage::Factorisation.begin();
         let start = Instant::now();
         let grounded = self.grounding.ground(stiffness);
-        let factor = Factor::new(&grounded, &frames, &ordering, &interface.border)
-            .map_err(|breakdown| self.explain(breakdown))?;
+        let matrix = Matrix {
+            stiffness: &grounded,
+            frames: &frames,
+            ordering: &ordering,
+            border: &interface.border,
+        };
+        let mut factor = match by {
+            By::Faer(wanted) => BodyFactor::Faer(self.factorise(&matrix, wanted, work)?),
+            By::Mumps(body, index) => {
+                let divided = self.divide(&matrix, (body, index))?;
+                work.factorisations += 1;
+                work.numeric_seconds += divided.numeric_seconds();
+                BodyFactor::Mumps(divided)
+            }
+        };
         work.factorisation_seconds += start.elapsed().as_secs_f64();
-        work.numeric_seconds += factor.numeric_seconds;
-        work.factorisations += 1;
         work.unknowns += ordering.unknowns();
         work.condensed_unknowns += factor.contact_unknowns();
         work.factor_entries += factor.entries();
+        work.factor_bytes += factor.bytes();
 
         Stage::Condensation.begin();
         let start = Instant::now();
-        let of_interface = match factor.is_bordered() {
-            true => OfInterface::Compliance(factor.border_compliance()),
-            false => OfInterface::Factor(factor.trailing_block()),
-        };
+        let compliance = factor.compliance();
         let factored = FactoredBody {
             stiffness: self.stiffness,
             dependence: self.dependence,
@@ -107,24 +106,85 @@ impl SupportedBody<'_> {
         let body = CondensedBody::new(factored, self.load, self.given);
         work.substitutions += 1;
         work.condensation_seconds += start.elapsed().as_secs_f64();
-        Ok((body, of_interface))
+        Ok((body, compliance))
+    }
+
+    /// The factor, in double precision where single precision is not enough for one.
+    fn factorise(
+        &self,
+        matrix: &Matrix<'_>,
+        wanted: Precision,
+        work: &mut CondensationWork,
+    ) -> Result<Factor, Error> {
+        let precision = self.worth(wanted, matrix.ordering);
+        let mut made = Factor::new(matrix, self.dimension, precision);
+        work.factorisations += 1;
+        if let (
+            Precision::Single,
+            Err(Breakdown::Pivot {
+                pivot, diagonal, ..
+            }),
+        ) = (precision, &made)
+        {
+            let part = pivot / diagonal;
+            work.fallback = Some(Fallback::Pivot { part });
+            made = Factor::new(matrix, self.dimension, Precision::Double);
+            work.factorisations += 1;
+        }
+        let factor = made.map_err(|breakdown| self.explain(breakdown))?;
+        work.single_factors += usize::from(factor.precision() == Precision::Single);
+        work.numeric_seconds += factor.numeric_seconds;
+        Ok(factor)
+    }
+
+    /// The factor that ranks share.
+    fn divide(&self, matrix: &Matrix<'_>, (body, index): (&Body, usize)) -> Result<Divided, Error> {
+        let divided = Divided::new(&Whole {
+            body,
+            index,
+            stiffness: matrix.stiffness,
+            springs: &self.grounding.springs,
+            ordering: matrix.ordering,
+            border: matrix.border,
+        });
+        divided.map_err(|refusal| self.refuse(refusal))
+    }
+
+    /// Single precision only where it pays.
+    fn worth(&self, wanted: Precision, ordering: &Ordering) -> Precision {
+        match self.dimension == 3 && ordering.unknowns() >= WORTH {
+            true => wanted,
+            false => Precision::Double,
+        }
     }
 
     /// Orders, and counts what the factor will take.
-    pub(super) fn count(self, interface: &Interface) -> Result<Counted, Error> {
+    pub(super) fn count(self, interface: &Interface, wanted: Precision) -> Result<Counted, Error> {
         let nodes = interface.condensed_nodes();
         let frames = Frames::new(self.dimension, self.nodes.len(), nodes);
         let (roles, contact) = self.roles(nodes);
-        let ordering = Ordering::new(&self.stiffness, self.dimension, &roles, &contact)
-            .ok_or_else(|| self.too_large("ordering"))?;
+        let ordering = Ordering::new(
+            &self.stiffness,
+            (self.nodes, self.dimension),
+            &roles,
+            &contact,
+        )
+        .ok_or_else(|| self.too_large("ordering"))?;
         let grounded = self.grounding.ground(&self.stiffness);
-        let (entries, operations) = count(&grounded, &frames, &ordering, &interface.border)
-            .map_err(|breakdown| self.explain(breakdown))?;
+        let matrix = Matrix {
+            stiffness: &grounded,
+            frames: &frames,
+            ordering: &ordering,
+            border: &interface.border,
+        };
+        let (entries, operations) =
+            count(&matrix, self.dimension).map_err(|breakdown| self.explain(breakdown))?;
         Ok(Counted {
             unknowns: ordering.unknowns(),
             condensed: ordering.contact_unknowns + interface.border.len(),
             entries,
             operations,
+            precision: self.worth(wanted, &ordering),
         })
     }
 
@@ -173,13 +233,33 @@ impl SupportedBody<'_> {
                 dof,
                 pivot,
                 diagonal,
-            } => Error::NotPositiveDefinite {
-                body: self.name.to_owned(),
-                node: dof / self.dimension,
-                position: self.nodes[dof / self.dimension],
-                pivot,
+            } => self.moves(dof, pivot, diagonal),
+        }
+    }
+
+    fn refuse(&self, refusal: Refusal) -> Error {
+        match refusal {
+            Refusal::TooLarge => self.too_large("factorisation"),
+            Refusal::Moves {
+                dof,
+                resistance,
                 diagonal,
+            } => self.moves(dof, resistance, diagonal),
+            Refusal::Says(found) => Error::NotAccepted {
+                place: self.name.to_owned(),
+                found,
+                accepted: "a factorisation by MUMPS on all ranks".to_owned(),
             },
+        }
+    }
+
+    fn moves(&self, dof: usize, pivot: f64, diagonal: f64) -> Error {
+        Error::NotPositiveDefinite {
+            body: self.name.to_owned(),
+            node: dof / self.dimension,
+            position: self.nodes[dof / self.dimension],
+            pivot,
+            diagonal,
         }
     }
 }

@@ -285,19 +285,19 @@ fn inverse_root(diagonal: f64) -> f64 {
     }
 }
 
-/// Upper triangle of `D P D`, column by column.
+/// Upper triangle of `D P D`, column by column. Zeros are not stored, but for the diagonal: few rigid bodies touch
+/// each other.
 fn scaled_upper_triangle(quadratic: MatRef<'_, f64>, scale: &[f64]) -> CscMatrix<f64> {
-    let size = scale.len();
-    let entries = size * (size + 1) / 2;
-    let (mut rows, mut values) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
-    let mut columns = Vec::with_capacity(size + 1);
-    columns.push(0);
-    for j in 0..size {
-        rows.extend(0..=j);
-        values.extend((0..=j).map(|i| scale[i] * quadratic[(i, j)] * scale[j]));
-        columns.push(values.len());
+    let mut columns = Columns::new();
+    for (j, by) in scale.iter().enumerate() {
+        for i in 0..j {
+            columns.push(i, scale[i] * quadratic[(i, j)] * by);
+        }
+        columns.rows.push(j);
+        columns.values.push(by * quadratic[(j, j)] * by);
+        columns.end_column();
     }
-    CscMatrix::new(size, size, columns, rows, values)
+    columns.matrix(scale.len())
 }
 
 /// `A` of `A x + s = b` with `s = (b, x)` per bounded disc: −1 on the rows of x.

@@ -265,20 +265,16 @@ mod tests {
         for at in &mut lower.mesh.nodes {
             at[up] -= high - low;
         }
-        let pair = ContactPair {
-            place: "contacts[0]".to_owned(),
-            body: 0,
-            facets: facets(&upper.mesh, "bottom"),
-            opposite: Opposite::Surface {
+        let pair = ContactPair::new(
+            "contacts[0]",
+            0,
+            facets(&upper.mesh, "bottom"),
+            Opposite::Surface {
                 body: 1,
                 facets: facets(&lower.mesh, "top"),
             },
-            friction: 0.3,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        };
+            0.3,
+        );
         (vec![upper, lower], pair)
     }
 

@@ -4,10 +4,13 @@
 //! facets f, g with  n_f · n_g < −½,   |(c_g − c_f) · m| ≤ d,  m ∥ n_f − n_g,   boxes that overlap across m
 //! ```
 //!
+//! Of one skin, facets that share a node do not face each other, and those that face each other are put on two sides so
+//! that neighbours are on the same one.
+//!
 //! c and n: centre and outward normal of a facet. Facets lie in a grid of boxes as large as the largest of them, so that each is
 //! compared with its neighbours only.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::Vector3;
 
@@ -35,37 +38,97 @@ struct Side {
 /// The facets of two bodies that face one of the other within a distance, in metre, body by body; none of either
 /// where nothing does.
 pub(crate) fn facing_skins(bodies: [&Body; 2], distance: f64) -> [Vec<Facet>; 2] {
-    let [first, second] = bodies.map(skin);
+    let [first, second] = bodies.map(|body| skin(body, body.mesh.boundary_facets()));
+    let pairs = facing(&first, &second, distance);
+    let of = |side: &[Side], at: fn(&[usize; 2]) -> usize| {
+        let faced: BTreeSet<usize> = pairs.iter().map(at).collect();
+        faced.into_iter().map(|at| side[at].facet.clone()).collect()
+    };
+    [of(&first, |pair| pair[0]), of(&second, |pair| pair[1])]
+}
+
+/// Those of a body's `facets`, running outward, that face another one of them within a distance, in metre, on two
+/// sides; none of either where nothing does, nothing where they do not come apart into two sides.
+pub(crate) fn facing_itself(
+    body: &Body,
+    facets: Vec<Facet>,
+    distance: f64,
+) -> Option<[Vec<Facet>; 2]> {
+    let sides = skin(body, facets);
+    let mut pairs = facing(&sides, &sides, distance);
+    pairs.retain(|&[a, b]| a < b && !sides[a].neighbours(&sides[b]));
+    let faced: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
+    let mut links: BTreeMap<usize, Vec<(usize, bool)>> = BTreeMap::new();
+    let mut link = |a: usize, b: usize, turns: bool| {
+        links.entry(a).or_default().push((b, turns));
+        links.entry(b).or_default().push((a, turns));
+    };
+    pairs.iter().for_each(|&[a, b]| link(a, b, true));
+    let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
+    for &facet in &faced {
+        for node in &sides[facet].facet.nodes {
+            let others = at_node.entry(*node).or_default();
+            let along = |other: &&usize| sides[**other].normal.dot(&sides[facet].normal) > -OPPOSED;
+            others
+                .iter()
+                .filter(along)
+                .for_each(|&other| link(other, facet, false));
+            others.push(facet);
+        }
+    }
+    let second = two_sides(&faced, &links)?;
+    let of = |on: bool| {
+        let of_side = second.iter().filter(|(_, second)| **second == on);
+        of_side.map(|(&at, _)| sides[at].facet.clone()).collect()
+    };
+    Some([of(false), of(true)])
+}
+
+/// Which of some facets are on the second side, from links that change sides or do not; nothing where they contradict
+/// each other.
+fn two_sides(
+    faced: &BTreeSet<usize>,
+    links: &BTreeMap<usize, Vec<(usize, bool)>>,
+) -> Option<BTreeMap<usize, bool>> {
+    let mut second = BTreeMap::new();
+    for &start in faced {
+        let mut open = match second.contains_key(&start) {
+            true => Vec::new(),
+            false => vec![(start, false)],
+        };
+        while let Some((at, side)) = open.pop() {
+            match second.insert(at, side) {
+                Some(before) if before != side => return None,
+                Some(_) => {}
+                None => {
+                    let next = links.get(&at).into_iter().flatten();
+                    open.extend(next.map(|&(next, turns)| (next, side != turns)));
+                }
+            }
+        }
+    }
+    Some(second)
+}
+
+/// Pairs of facets that face each other within a distance, in metre.
+fn facing(first: &[Side], second: &[Side], distance: f64) -> Vec<[usize; 2]> {
     let extent = |side: &Side| (side.high - side.low).amax();
-    let largest = first
-        .iter()
-        .chain(&second)
-        .map(extent)
-        .fold(distance, f64::max);
+    let extents = first.iter().chain(second).map(extent);
+    let largest = extents.fold(distance, f64::max);
     let key = |at: Vector3<f64>| -> [i64; 3] { (at / largest).map(|x| x.floor() as i64).into() };
     let mut grid: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
     for (at, side) in second.iter().enumerate() {
         grid.entry(key(side.centre)).or_default().push(at);
     }
-    let mut faced = vec![false; second.len()];
-    let mut facing = Vec::new();
-    for side in &first {
-        let mut any = false;
-        for at in around(key(side.centre))
-            .filter_map(|key| grid.get(&key))
+    let mut pairs = Vec::new();
+    for (own, side) in first.iter().enumerate() {
+        let near = around(key(side.centre)).filter_map(|key| grid.get(&key));
+        let facing = near
             .flatten()
-        {
-            if side.faces(&second[*at], distance) {
-                faced[*at] = true;
-                any = true;
-            }
-        }
-        if any {
-            facing.push(side.facet.clone());
-        }
+            .filter(|at| side.faces(&second[**at], distance));
+        pairs.extend(facing.map(|&other| [own, other]));
     }
-    let other = second.into_iter().zip(faced).filter(|(_, faced)| *faced);
-    [facing, other.map(|(side, _)| side.facet).collect()]
+    pairs
 }
 
 /// Keys of the boxes around one, up to two away: as far as half of two facets and a distance reach.
@@ -74,8 +137,7 @@ fn around([x, y, z]: [i64; 3]) -> impl Iterator<Item = [i64; 3]> {
     line(x).flat_map(move |x| line(y).flat_map(move |y| line(z).map(move |z| [x, y, z])))
 }
 
-fn skin(body: &Body) -> Vec<Side> {
-    let facets = body.mesh.boundary_facets().into_iter();
+fn skin(body: &Body, facets: Vec<Facet>) -> Vec<Side> {
     let side = |facet: Facet| {
         let nodes = || {
             facet
@@ -94,10 +156,17 @@ fn skin(body: &Body) -> Vec<Side> {
             facet,
         }
     };
-    facets.map(side).collect()
+    facets.into_iter().map(side).collect()
 }
 
 impl Side {
+    fn neighbours(&self, other: &Self) -> bool {
+        self.facet
+            .nodes
+            .iter()
+            .any(|node| other.facet.nodes.contains(node))
+    }
+
     fn faces(&self, other: &Self, distance: f64) -> bool {
         if self.normal.dot(&other.normal) >= OPPOSED {
             return false;
@@ -152,6 +221,25 @@ mod tests {
                 .iter()
                 .all(Vec::is_empty)
         );
+    }
+
+    #[test]
+    fn a_slit_is_told_apart_into_its_two_sides_and_a_gap_too_wide_is_none() {
+        // A unit square with a slit 0.01 wide and half as deep, from the right.
+        let ys = [0.0, 0.2, 0.495, 0.505, 0.8, 1.0];
+        let xs = crate::body::graded(0.0, 1.0, 10, 1.0).unwrap();
+        let whole = crate::body::rectangle(&xs, &ys, CellKind::Quad4).unwrap();
+        let solid: Vec<usize> = (0..50).filter(|cell| !(25..30).contains(cell)).collect();
+        let body = samples::body(whole.part(&solid), Model::PlaneStrain, 0.3);
+        let found = |distance| {
+            let [one, two] = facing_itself(&body, body.mesh.boundary_facets(), distance).unwrap();
+            let height = |facet: &Facet| body.mesh.nodes[facet.nodes[0]][1];
+            assert!(one.iter().all(|facet| height(facet) == height(&one[0])));
+            assert!(two.iter().all(|facet| height(facet) != height(&one[0])));
+            [one.len(), two.len()]
+        };
+        assert_eq!(found(0.02), [5, 5]);
+        assert_eq!(found(0.005), [0, 0]);
     }
 
     #[test]

@@ -15,7 +15,7 @@
 //! | what straight facets leave of a round surface (C18) | `rounding`: `turning_edges` |
 //! | gaps that are nowhere less than the least distance (C20) | `lift` |
 //! | against a rigid obstacle | `on_obstacle`: `obstacle` |
-//! | how a body moves that carries obstacles | `rigid_body` |
+//! | how a body moves that carries obstacles, or is between the faces of a cut | `rigid_body` |
 //! | against another surface, segment to segment (C7)–(C10) | `between_bodies`: `carrying_side`, `mortar` |
 
 mod between_bodies;
@@ -39,11 +39,11 @@ mod surface;
 mod turn;
 mod turning_edges;
 
-pub(crate) use facing_skins::facing_skins;
+pub(crate) use facing_skins::{facing_itself, facing_skins};
 pub use law::{PairLaw, Places, Region};
 pub use node::{ContactNode, OppositeNodes};
 pub(crate) use obstacle::Closest;
 pub use obstacle::{Obstacle, Outline, Profile, Triangulated};
 pub use pair::{ContactPair, Coupling, Opposite};
-pub use rigid_body::{Component, RigidBody, RigidMotion};
+pub use rigid_body::{Component, Cut, RigidBody, RigidMotion};
 pub use surface::ContactSurface;

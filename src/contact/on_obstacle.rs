@@ -216,17 +216,13 @@ mod tests {
         };
         let point = normal.map(|component| -0.25 * component);
         let facets = sides.iter().flat_map(|side| facets(&body.mesh, side));
-        ContactPair {
-            place: "contacts[0]".to_owned(),
-            facets: facets.collect(),
-            body: 0,
-            opposite: Opposite::Obstacle(Obstacle::Plane { point, normal }),
-            friction: 0.3,
-            law: crate::contact::PairLaw::default(),
-            rounded: true,
-            gap: 0.0,
-            dragged: false,
-        }
+        ContactPair::new(
+            "contacts[0]",
+            0,
+            facets.collect(),
+            Opposite::Obstacle(Obstacle::Plane { point, normal }),
+            0.3,
+        )
     }
 
     fn find(body: &Body, pairs: &[ContactPair]) -> Result<ContactSurface, Error> {
@@ -234,13 +230,8 @@ mod tests {
     }
 
     fn hold(body: &mut Body, nodes: &[usize], displacement: [Option<f64>; 3]) {
-        body.supports.push(Support {
-            place: "supports[0]".to_owned(),
-            nodes: nodes.to_vec(),
-            displacement,
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        });
+        body.supports
+            .push(Support::new("supports[0]", nodes.to_vec(), displacement));
     }
 
     /// The node of the block's bottom with the largest x (and the smallest y).

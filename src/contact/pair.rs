@@ -8,6 +8,7 @@ use crate::error::{Error, check_finite};
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ContactPair {
     /// Where the scene says so, for messages, such as `contacts[0]`.
     pub place: String,
@@ -50,6 +51,29 @@ pub enum Opposite {
 }
 
 impl ContactPair {
+    /// The contact of `facets` of the body of that number with what is opposite, after Coulomb's law with a
+    /// coefficient `friction >= 0`, without a gap but that of the geometry; turning facets are rounded.
+    #[must_use]
+    pub fn new(
+        place: &str,
+        body: usize,
+        facets: Vec<Facet>,
+        opposite: Opposite,
+        friction: f64,
+    ) -> Self {
+        Self {
+            place: place.to_owned(),
+            body,
+            facets,
+            opposite,
+            friction,
+            law: PairLaw::default(),
+            rounded: true,
+            gap: 0.0,
+            dragged: false,
+        }
+    }
+
     /// Whether it is one of two bodies, whichever it names first.
     pub(crate) fn joins(&self, bodies: [usize; 2]) -> bool {
         match &self.opposite {

@@ -2,7 +2,11 @@
 //!
 //! ```text
 //! d(x) = a + ω × (x − c)        c: reference point, a: its displacement, ω: small rotation
+//! d(x) = s m                    between the faces of a cut: s: shortening, m: from its first face to the second
 //! ```
+//!
+//! The faces of a cut are tied to each other, but for s: what is between them has no compliance, and carries a given
+//! force along m or is of a given length. So a bolt is preloaded.
 
 /// A small motion of a rigid body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,8 +39,20 @@ pub struct RigidBody {
     pub reference: [f64; 3],
     /// Translations along x, y, z, then rotations about them.
     pub components: [Component; 6],
-    /// Contact pairs whose obstacles it carries.
+    /// Contact pairs whose obstacles it carries, or the pair of the faces that it is between.
     pub pairs: Vec<usize>,
+    /// It is what is between the faces of a cut; none if it carries obstacles.
+    pub cut: Option<Cut>,
+}
+
+/// A cut through a bolt, the shortening of which stands in place of the first component of a rigid body; the
+/// others are held.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cut {
+    /// m, of length one: from the first face of the pair to the second.
+    pub towards: [f64; 3],
+    /// Instant of a load history after which the shortening stays what it was then.
+    pub locked_from: Option<f64>,
 }
 
 impl RigidMotion {
@@ -54,15 +70,62 @@ impl RigidBody {
     #[must_use]
     pub fn motion(&self, [u, v, w, a, b, c]: [f64; 6]) -> RigidMotion {
         RigidMotion {
-            translation: [u, v, w],
+            translation: self.cut.map_or([u, v, w], |cut| cut.towards.map(|m| u * m)),
             rotation: [a, b, c],
             about: self.reference,
         }
     }
 
+    /// How much shorter a motion makes the bolt that is cut, in metre; zero without a cut.
+    #[must_use]
+    pub fn shortening(&self, motion: &RigidMotion) -> f64 {
+        self.along(motion.translation)
+    }
+
+    /// Component of a vector from the first face of its cut to the second; zero without a cut.
+    #[must_use]
+    pub fn along(&self, vector: [f64; 3]) -> f64 {
+        let towards = self.cut.map_or([0.0; 3], |cut| cut.towards);
+        vector.iter().zip(towards).map(|(v, m)| v * m).sum()
+    }
+
+    /// Force and moment of these values per component, in global axes.
+    #[must_use]
+    pub fn wrench(&self, [u, v, w, a, b, c]: [f64; 6]) -> [[f64; 3]; 2] {
+        let force = self.cut.map_or([u, v, w], |cut| cut.towards.map(|m| u * m));
+        [force, [a, b, c]]
+    }
+
+    /// The part of a force that free components answer.
+    #[must_use]
+    pub fn freely(&self, force: [f64; 3]) -> [f64; 3] {
+        let free = |k| matches!(self.components[k], Component::Free(_));
+        match self.cut {
+            Some(Cut { towards, .. }) if free(0) => towards.map(|m| self.along(force) * m),
+            Some(_) => [0.0; 3],
+            None => [0, 1, 2].map(|k| if free(k) { force[k] } else { 0.0 }),
+        }
+    }
+
+    /// Numbers of the components that can move in 2D or 3D.
+    pub(crate) fn movable(&self, dimension: usize) -> impl Iterator<Item = usize> + use<> {
+        let cut = self.cut.is_some();
+        (0..6).filter(move |k| match cut {
+            true => *k == 0,
+            false => dimension == 3 || [0, 1, 5].contains(k),
+        })
+    }
+
     /// Where a scene in 2D or 3D states a component, such as `rigid_bodies[0].force[1]`.
     #[must_use]
     pub fn component_place(&self, component: usize, dimension: usize) -> String {
+        if self.cut.is_some() {
+            let key = match self.components[component] {
+                Component::Given(_) => "shortening",
+                Component::Free(_) => "force",
+            };
+            return format!("{}.{key}", self.place);
+        }
         let key = match (self.components[component], component < 3) {
             (Component::Given(_), true) => "displacement",
             (Component::Free(_), true) => "force",

@@ -8,10 +8,15 @@
 //! stated distance; its foot must lie on the surface. Middle nodes of the slave surface are nodes like
 //! others: on a curved one they may touch where corners do not. Those of edges into the body move with
 //! the corners, by half of what the two move.
+//!
+//! Of a `*TIE` only the slave faces take part whose corners are near; a `*CLEARANCE` stands in place of a
+//! distance that is drawn as none.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::interaction::{Adjust, Pair};
+use super::pair::{Adjust, Pair};
+use super::statement::Notes;
+use crate::error::Error;
 use crate::mesh_file::abaqus::{Contents, Shape, Side};
 
 type Point = [f64; 3];
@@ -20,6 +25,9 @@ type Point = [f64; 3];
 /// between two facets of a curved surface.
 const BESIDE: f64 = 1e-3;
 
+/// Distance over the size of the master's facets up to which surfaces are drawn touching.
+const TOUCHING: f64 = 1e-6;
+
 /// A flat piece of a facet: a line or a triangle, its outward normal and its size.
 struct Piece {
     corners: Vec<Point>,
@@ -27,19 +35,88 @@ struct Piece {
     size: f64,
 }
 
-/// Moves the slave nodes of a pair.
-pub(super) fn adjust(contents: &mut Contents, pair: &Pair<'_, '_>) {
-    if pair.adjust == Adjust::No {
-        return;
+/// Moves the slave nodes of a pair, keeps those of its slave faces that are near, and looks at its clearance.
+pub(super) fn settle(
+    contents: &mut Contents,
+    pair: &mut Pair<'_, '_>,
+    notes: &mut Notes,
+) -> Result<(), Error> {
+    if let Some(tolerance) = pair.tolerance {
+        narrow(contents, pair, tolerance, notes)?;
     }
-    let [slave, master] = pair
-        .surfaces
-        .each_ref()
-        .map(|name| &contents.surfaces[name]);
-    let pieces: Vec<Piece> = (master.iter())
-        .flat_map(|&side| pieces(contents, side))
-        .collect();
-    let nodes = slave.iter().flat_map(|&side| contents.facet(side));
+    if pair.adjust != Adjust::No {
+        adjust(contents, pair);
+    }
+    if let Some((_, card)) = pair.clearance {
+        let pieces = master_pieces(contents, pair);
+        let size = pieces.iter().map(|piece| piece.size).fold(0.0, f64::max);
+        let slave = contents.surfaces[&pair.surfaces[0]].iter();
+        let nodes = slave.flat_map(|&side| contents.facet(side));
+        let far = nodes.map(|node| distance(&pieces, contents.positions[node]));
+        let far = far.fold(0.0, f64::max);
+        if far > TOUCHING * size {
+            return Err(card.error(format!(
+                "the surfaces are drawn up to {far:.3e} apart; expected surfaces drawn touching, or ADJUST"
+            )));
+        }
+    }
+    Ok(())
+}
+
+/// Leaves slave faces out that have a corner beyond a distance.
+fn narrow(
+    contents: &mut Contents,
+    pair: &mut Pair<'_, '_>,
+    tolerance: f64,
+    notes: &mut Notes,
+) -> Result<(), Error> {
+    let pieces = master_pieces(contents, pair);
+    let [slave, master] = &pair.surfaces;
+    let all = &contents.surfaces[slave];
+    let reach = tolerance * (1.0 + TOUCHING);
+    let near = |side: &&Side| {
+        let corners = contents.corners(**side);
+        corners
+            .iter()
+            .all(|&node| distance(&pieces, contents.positions[node]) <= reach)
+    };
+    let near: BTreeSet<Side> = all.iter().filter(near).copied().collect();
+    if near.is_empty() {
+        let reason = format!(
+            "no face of `{slave}` stands within {tolerance:.3e} of `{master}`; expected a larger `POSITION TOLERANCE`"
+        );
+        return Err(pair.card.error(reason));
+    }
+    if near.len() < all.len() {
+        let words = format!(
+            "{} of {} faces of `{slave}` stand within {tolerance:.3e} of `{master}` and are tied",
+            near.len(),
+            all.len()
+        );
+        notes.add(pair.card, &words);
+    }
+    pair.surfaces[0] = format!("{slave} on {master}");
+    contents.surfaces.insert(pair.surfaces[0].clone(), near);
+    Ok(())
+}
+
+fn master_pieces(contents: &Contents, pair: &Pair<'_, '_>) -> Vec<Piece> {
+    let master = contents.surfaces[&pair.surfaces[1]].iter();
+    master.flat_map(|&side| pieces(contents, side)).collect()
+}
+
+/// Distance of a point from a surface.
+fn distance(surface: &[Piece], point: Point) -> f64 {
+    let feet = surface.iter().map(|piece| piece.nearest(point));
+    let off = feet.map(|foot| length(plus(point, foot, -1.0)));
+    off.fold(f64::INFINITY, f64::min)
+}
+
+/// Moves the slave nodes of a pair.
+fn adjust(contents: &mut Contents, pair: &Pair<'_, '_>) {
+    let pieces = master_pieces(contents, pair);
+    let slave = contents.surfaces[&pair.surfaces[0]].iter();
+    let nodes = slave.flat_map(|&side| contents.facet(side));
     let nodes: BTreeSet<usize> = nodes.collect();
     let mut moves: BTreeMap<usize, Point> = BTreeMap::new();
     for &node in &nodes {

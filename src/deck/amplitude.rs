@@ -52,6 +52,18 @@ impl Amplitude {
         })
     }
 
+    /// The same later by a time.
+    pub(super) fn delayed(&self, by: f64) -> Self {
+        let points = self
+            .points
+            .iter()
+            .map(|[time, factor]| [time + by, *factor]);
+        Self {
+            points: points.collect(),
+            ..*self
+        }
+    }
+
     /// The factor at a time.
     pub(super) fn at(&self, time: f64) -> f64 {
         let next = self.points.partition_point(|point| point[0] <= time);

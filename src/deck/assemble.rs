@@ -2,18 +2,20 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::cyclic::Repeat;
 use super::history::History;
-use super::interaction::{Contacts, Pair, check_hard};
-use super::load::Slot;
 use super::material::Materials;
+use super::pair::{Contacts, Pair};
 use super::parts::{Part, Parts};
+use super::rigid::RigidGroups;
 use super::statement::Notes;
+use super::transform::Transforms;
 use crate::body::{Facet, Group, Mesh};
 use crate::error::Error;
 use crate::mesh_file::abaqus::{Contents, Shape, Side, Space};
 use crate::scene::{
-    MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel, SceneSteps,
-    SceneSupport, SceneSurface,
+    MeshSource, Scene, SceneBody, SceneContact, SceneFormulation, SceneModel, SceneSteps,
+    SceneSurface,
 };
 
 /// All that a deck says.
@@ -22,18 +24,27 @@ pub(super) struct Stock<'a, 'c> {
     pub(super) materials: Materials,
     pub(super) parts: Parts,
     pub(super) contacts: Contacts<'a, 'c>,
+    pub(super) transforms: Transforms,
+    pub(super) rigid: RigidGroups<'a, 'c>,
+    pub(super) repeats: Vec<Repeat>,
     pub(super) history: History,
 }
 
 /// A body on the way: its mesh, and the numbers that the deck's nodes and elements have in it.
-struct Building {
-    body: SceneBody,
-    mesh: Mesh,
+pub(super) struct Building {
+    pub(super) body: SceneBody,
+    pub(super) mesh: Mesh,
     /// Of nodes.
-    node: BTreeMap<usize, usize>,
+    pub(super) node: BTreeMap<usize, usize>,
     /// Of elements.
-    cell: BTreeMap<usize, usize>,
+    pub(super) cell: BTreeMap<usize, usize>,
 }
+
+/// Tables of a history, by the place of what they drive.
+pub(super) type Tables = BTreeMap<String, Vec<Vec<f64>>>;
+
+/// Gap of a pair that is taken out, over the size of all that the deck holds.
+const AWAY: f64 = 10.0;
 
 impl Stock<'_, '_> {
     /// The scene.
@@ -41,15 +52,33 @@ impl Stock<'_, '_> {
         let mut bodies: Vec<Building> = (0..self.parts.parts.len())
             .map(|part| self.building(part))
             .collect();
-        let mut factors = BTreeMap::new();
+        let mut factors = Tables::new();
         self.add_loads(&mut bodies, &mut factors);
-        let mut contacts = Vec::new();
+        self.add_rigid_groups(&mut bodies, &mut factors)?;
+        self.add_repeats(&mut bodies);
+        let (mut contacts, mut gaps) = (Vec::new(), Tables::new());
         for pair in &self.contacts.pairs {
-            contacts.extend(self.contacts_of(pair, &mut bodies, notes)?);
+            let found = self.contacts_of(pair, &mut bodies, notes)?;
+            if let Some(rows) = self.gaps(pair) {
+                let places = contacts.len()..contacts.len() + found.len();
+                gaps.extend(places.map(|at| (format!("contacts[{at}]"), rows.clone())));
+            }
+            contacts.extend(found);
+        }
+        if contacts.is_empty() {
+            let last = self.contacts.pairs.last();
+            let nothing = || Error::Empty {
+                place: "contacts".to_owned(),
+            };
+            return Err(last.map_or_else(nothing, |pair| {
+                pair.card
+                    .error("*MODEL CHANGE takes all pairs out, in all steps")
+            }));
         }
         let steps = (self.history.instants.len() > 1).then(|| SceneSteps {
             at: self.history.instants.clone(),
             factors,
+            gaps,
             ..SceneSteps::default()
         });
         let finish = |building: Building| SceneBody {
@@ -91,56 +120,25 @@ impl Stock<'_, '_> {
             model: Some(model(of_part)),
             ..SceneBody::new(&of_part.name, Mesh::default())
         };
-        let mut of_material: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for at in &cells {
-            let material = self.materials.sections[self.materials.of_cell[*at]].material;
-            of_material.entry(material).or_default().push(cell[at]);
+        if cells.iter().any(|&at| contents.elements[at].kind.bends) {
+            body.formulation = SceneFormulation::IncompatibleModes;
         }
-        for (material, cells) in of_material {
-            let material = &self.materials.materials[material];
-            let [young, poisson] = material.elastic.unwrap_or_default();
-            let group = format!("cells of {}", material.name);
+        let mut of_section: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+        for at in &cells {
+            let section = self.materials.filling(self.materials.of_cell[*at]);
+            of_section.entry(section).or_default().push(cell[at]);
+        }
+        for (section, cells) in of_section {
+            let group = format!("cells of {}", self.materials.name(section));
             mesh.groups.insert(group.clone(), Group::Cells(cells));
-            body.materials
-                .push(SceneMaterial::new(young, poisson).of(&group));
+            let material = self.materials.in_scene(section, of_part.space);
+            body.materials.push(material.of(&group));
         }
         Building {
             body,
             mesh,
             node,
             cell,
-        }
-    }
-
-    /// Supports and loads: one for all nodes, faces or elements that share a history.
-    fn add_loads(&self, bodies: &mut [Building], factors: &mut BTreeMap<String, Vec<Vec<f64>>>) {
-        let mut alike: BTreeMap<(usize, [usize; 2], Vec<u64>), Vec<Slot>> = BTreeMap::new();
-        for (&slot, values) in &self.history.values {
-            let (part, kind) = match slot {
-                Slot::Held(node, axis) => (self.parts.of_node[node], [0, axis]),
-                Slot::Force(node, axis) => (self.parts.of_node[node], [1, 3 * node + axis]),
-                Slot::Pressure((cell, _)) => (Some(self.parts.of_cell[cell]), [2, 0]),
-                Slot::Weight(cell, axis) => (Some(self.parts.of_cell[cell]), [3, axis]),
-            };
-            let bits = values.iter().map(|value| (value + 0.0).to_bits()).collect();
-            if let Some(part) = part {
-                alike.entry((part, kind, bits)).or_default().push(slot);
-            }
-        }
-        for ((part, kind, bits), slots) in alike {
-            let values: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
-            let size = |value: &&f64| value.abs();
-            let largest = values.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
-            let stated = largest.copied().unwrap_or_default();
-            if kind[0] > 0 && stated == 0.0 {
-                continue;
-            }
-            let place = bodies[part].add(&self.contents, &slots, stated);
-            if values.iter().any(|value| *value != stated) {
-                let rows = self.history.instants.iter().zip(values);
-                let rows = rows.map(|(at, value)| vec![*at, value / stated]).collect();
-                factors.insert(format!("bodies[{part}].{place}"), rows);
-            }
         }
     }
 
@@ -151,6 +149,15 @@ impl Stock<'_, '_> {
         bodies: &mut [Building],
         notes: &mut Notes,
     ) -> Result<Vec<SceneContact>, Error> {
+        if self
+            .history
+            .steps
+            .iter()
+            .all(|step| pair.absent.contains(step))
+        {
+            notes.add(pair.card, "is taken out in all steps");
+            return Ok(Vec::new());
+        }
         let law = &self.contacts.laws[pair.interaction];
         let [slaves, masters] = pair.surfaces.each_ref().map(|name| {
             let mut sides: BTreeMap<usize, BTreeSet<Side>> = BTreeMap::new();
@@ -172,26 +179,63 @@ impl Stock<'_, '_> {
                 let cells = own.union(other).map(|side| self.stiffness_and_size(*side));
                 let least = |a: [f64; 2], b: [f64; 2]| [a[0].min(b[0]), a[1].min(b[1])];
                 let [young, size] = cells.reduce(least).unwrap_or([1.0; 2]);
-                check_hard(law, young / size, notes)?;
                 let [group, against] = &pair.surfaces;
                 bodies[slave].add_surface(&self.contents, group, own);
                 bodies[master].add_surface(&self.contents, against, other);
-                contacts.push(SceneContact {
-                    group: group.clone(),
+                let mut contact = SceneContact {
+                    group: group.clone().into(),
                     body: Some(self.parts.parts[slave].name.clone()),
                     against: Some(SceneSurface {
                         body: Some(self.parts.parts[master].name.clone()),
-                        group: against.clone(),
+                        group: against.clone().into(),
                     }),
-                    friction: Some(law.friction),
                     ..SceneContact::default()
-                });
+                };
+                law.put_on(&mut contact, young / size, notes)?;
+                if self.gaps(pair).is_none() {
+                    contact.gap = pair.clearance.map_or(0.0, |(clearance, _)| clearance);
+                }
+                contacts.push(contact);
             }
         }
         match contacts.is_empty() {
             true => Err(pair.card.error("no slave face stands near a master face")),
             false => Ok(contacts),
         }
+    }
+
+    /// Gap at every instant, of a pair that is taken out in some steps.
+    fn gaps(&self, pair: &Pair<'_, '_>) -> Option<Vec<Vec<f64>>> {
+        let history = &self.history;
+        let clearance = pair.clearance.map_or(0.0, |(clearance, _)| clearance);
+        let away = AWAY * self.size();
+        let gap = |step: &usize| {
+            if pair.absent.contains(step) {
+                away
+            } else {
+                clearance
+            }
+        };
+        let rows = history.instants.iter().zip(history.steps.iter().map(gap));
+        let rows = rows.map(|(at, gap)| vec![*at, gap]);
+        let ever = history.steps.iter().any(|step| pair.absent.contains(step));
+        ever.then(|| rows.collect())
+    }
+
+    /// Largest extent of all nodes along an axis.
+    fn size(&self) -> f64 {
+        let along = |axis: usize| {
+            let at = self
+                .contents
+                .positions
+                .iter()
+                .map(|position| position[axis]);
+            let ends = at.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| {
+                [low.min(x), high.max(x)]
+            });
+            ends[1] - ends[0]
+        };
+        [0, 1, 2].map(along).into_iter().fold(0.0, f64::max)
     }
 
     /// Whether two sets of faces come closer to each other than the size of the smaller.
@@ -215,72 +259,12 @@ impl Stock<'_, '_> {
 
     /// Young's modulus of the cell at a face, and the longest edge of the face.
     fn stiffness_and_size(&self, side: Side) -> [f64; 2] {
-        let corners = self.contents.corners(side);
-        let place = |at: usize| self.contents.positions[corners[at % corners.len()]];
-        let edges = (0..corners.len()).map(|at| (place(at), place(at + 1)));
-        let edges = edges.map(|(a, b)| (0..3).fold(0.0_f64, |sum, k| sum.hypot(a[k] - b[k])));
-        let [young, _] = self.materials.of(side.0).elastic.unwrap_or_default();
-        [young, edges.fold(0.0, f64::max)]
+        let elastic = self.materials.of(side.0).elastic.unwrap_or_default();
+        [elastic.young(), self.contents.face_size(side)]
     }
 }
 
 impl Building {
-    /// Adds a support or a load on all slots, which are of one kind, and returns its place in the body.
-    fn add(&mut self, contents: &Contents, slots: &[Slot], stated: f64) -> String {
-        let dimension = self.mesh.dimension;
-        let along = |axis: usize| {
-            let mut vector = vec![0.0; dimension];
-            vector[axis] = stated;
-            vector
-        };
-        let (supports, loads) = (self.body.supports.len(), self.body.loads.len());
-        let (mut nodes, mut facets, mut cells) = (Vec::new(), Vec::new(), Vec::new());
-        for slot in slots {
-            match *slot {
-                Slot::Held(node, _) | Slot::Force(node, _) => nodes.push(self.node[&node]),
-                Slot::Pressure(side) => facets.push(self.facet(contents, side)),
-                Slot::Weight(cell, _) => cells.push(self.cell[&cell]),
-            }
-        }
-        let load = match slots.first() {
-            Some(&Slot::Held(_, axis)) => {
-                let group = format!("support {supports}");
-                self.mesh.groups.insert(group.clone(), Group::Points(nodes));
-                let mut displacement = vec![None; dimension];
-                displacement[axis] = Some(stated);
-                self.body.supports.push(SceneSupport::Group {
-                    group,
-                    displacement,
-                });
-                return format!("supports[{supports}]");
-            }
-            Some(&Slot::Force(_, axis)) => SceneLoad::PointForce {
-                point_force: along(axis),
-                at: self.mesh.nodes[nodes[0]][..dimension].to_vec(),
-            },
-            Some(&Slot::Weight(_, axis)) => {
-                let group = format!("weight {loads}");
-                self.mesh.groups.insert(group.clone(), Group::Cells(cells));
-                SceneLoad::BodyForce {
-                    body_force: along(axis),
-                    group: Some(group),
-                }
-            }
-            _ => {
-                let group = format!("pressure {loads}");
-                self.mesh
-                    .groups
-                    .insert(group.clone(), Group::Facets(facets));
-                SceneLoad::Pressure {
-                    pressure: stated,
-                    group,
-                }
-            }
-        };
-        self.body.loads.push(load);
-        format!("loads[{loads}]")
-    }
-
     /// Adds the group of a surface, once.
     fn add_surface(&mut self, contents: &Contents, name: &str, sides: &BTreeSet<Side>) {
         if !self.mesh.groups.contains_key(name) {
@@ -294,7 +278,7 @@ impl Building {
         }
     }
 
-    fn facet(&self, contents: &Contents, side: Side) -> Facet {
+    pub(super) fn facet(&self, contents: &Contents, side: Side) -> Facet {
         let nodes = contents.facet(side);
         Facet {
             nodes: nodes.iter().map(|node| self.node[node]).collect(),

@@ -9,6 +9,7 @@
 //! step does not state persist, unless it says OP=NEW; then they end.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use super::amplitude::{Amplitude, Amplitudes};
 use super::load::{Reader, Slot};
@@ -21,15 +22,17 @@ use crate::mesh_file::abaqus::Card;
 pub(super) struct History {
     /// Rising times.
     pub(super) instants: Vec<f64>,
+    /// Number of the step, from 1, that each is in.
+    pub(super) steps: Vec<usize>,
     /// Values at the instants.
     pub(super) values: BTreeMap<Slot, Vec<f64>>,
 }
 
 /// A load or a support as a step leaves it.
 #[derive(Clone, Debug)]
-struct Entry<'m> {
+struct Entry {
     stated: f64,
-    amplitude: Option<&'m Amplitude>,
+    amplitude: Option<Rc<Amplitude>>,
     /// Whether it is there at once and does not grow over the step.
     at_once: bool,
     /// Its value when the step begins.
@@ -39,13 +42,19 @@ struct Entry<'m> {
 }
 
 /// The families of keywords that an OP=NEW ends.
-const FAMILIES: [&[&str]; 3] = [&["BOUNDARY"], &["CLOAD"], &["DLOAD", "DSLOAD"]];
+const FAMILIES: [&[&str]; 4] = [
+    &["BOUNDARY"],
+    &["CLOAD"],
+    &["DLOAD", "DSLOAD"],
+    &["TEMPERATURE"],
+];
 
 fn family(slot: Slot) -> usize {
     match slot {
-        Slot::Held(..) => 0,
-        Slot::Force(..) => 1,
-        Slot::Pressure(_) | Slot::Weight(..) => 2,
+        Slot::Held(..) | Slot::Motion(..) => 0,
+        Slot::Force(..) | Slot::Wrench(..) => 1,
+        Slot::Pressure(_) | Slot::Weight(..) | Slot::Spin(..) => 2,
+        Slot::Heat(_) => 3,
     }
 }
 
@@ -53,7 +62,7 @@ fn family(slot: Slot) -> usize {
 struct Walk<'m, 'r> {
     reader: Reader<'r>,
     amplitudes: &'m Amplitudes,
-    entries: BTreeMap<Slot, Entry<'m>>,
+    entries: BTreeMap<Slot, Entry>,
     history: History,
     time: f64,
 }
@@ -84,7 +93,7 @@ impl History {
     }
 }
 
-impl<'m> Walk<'m, '_> {
+impl Walk<'_, '_> {
     fn step(&mut self, number: usize, step: &Step<'_, '_>, notes: &mut Notes) -> Result<(), Error> {
         let period = period(step.procedure, notes)?;
         let end = self.time + period;
@@ -101,12 +110,12 @@ impl<'m> Walk<'m, '_> {
             .filter(|slot| family(**slot) == 0)
             .count();
         self.end_families(step)?;
-        for &stated in &step.cards {
-            if stated.1.name != "TEMPERATURE" {
-                self.apply(stated, number, at_once, notes)?;
-            } else if self.reader.materials.expansion {
-                return Err(stated.1.error("is not read: thermal expansion"));
-            }
+        for &stated in step
+            .cards
+            .iter()
+            .filter(|(_, card)| card.name != "MODELCHANGE")
+        {
+            self.apply(stated, number, at_once, notes)?;
         }
         self.check_supports(number, step, held)?;
         for time in self.instants(number, end) {
@@ -147,36 +156,46 @@ impl<'m> Walk<'m, '_> {
         notes: &mut Notes,
     ) -> Result<(), Error> {
         let card = stated.1;
-        let amplitude = match card.get("AMPLITUDE") {
-            None => None,
-            Some(name) => {
-                let unknown = || card.error(format!("amplitude `{name}` is not known"));
-                Some(self.amplitudes.get(name).ok_or_else(unknown)?)
-            }
-        };
+        let amplitude = self.amplitude(card)?;
         for (slot, given) in self.reader.read(stated, notes)? {
             let entry = self.entries.entry(slot).or_insert(Entry {
                 stated: 0.0,
-                amplitude,
+                amplitude: amplitude.clone(),
                 at_once,
                 start: 0.0,
                 step: usize::MAX,
             });
             let again = entry.step == step;
-            let other =
-                entry.amplitude != amplitude || (family(slot) == 0 && entry.stated != given);
+            let scaled = entry.stated != 0.0 || given != 0.0;
+            let other = (scaled && entry.amplitude != amplitude)
+                || (family(slot) == 0 && entry.stated != given);
             if again && other {
                 return Err(card.error("one node or face with two values in one step"));
             }
-            // Loads of one step add up; supports say the same twice.
-            entry.stated = if again && family(slot) > 0 {
-                entry.stated + given
-            } else {
-                given
-            };
-            (entry.amplitude, entry.at_once, entry.step) = (amplitude, at_once, step);
+            // Loads of one step add up; supports say the same twice; of temperatures the last one counts.
+            let adds = again && [1, 2].contains(&family(slot));
+            entry.stated = if adds { entry.stated + given } else { given };
+            (entry.at_once, entry.step) = (at_once, step);
+            entry.amplitude.clone_from(&amplitude);
         }
         Ok(())
+    }
+
+    /// The amplitude that a card names, delayed as it says.
+    fn amplitude(&self, card: &Card<'_>) -> Result<Option<Rc<Amplitude>>, Error> {
+        let Some(name) = card.get("AMPLITUDE") else {
+            return match card.get("TIMEDELAY") {
+                None => Ok(None),
+                Some(_) => Err(card.error("`TIME DELAY` without an `AMPLITUDE`")),
+            };
+        };
+        let unknown = || card.error(format!("amplitude `{name}` is not known"));
+        let amplitude = self.amplitudes.get(name).ok_or_else(unknown)?;
+        let delay = match card.get("TIMEDELAY") {
+            None => 0.0,
+            Some(word) => card.head(0).number_of(word, "a time")?,
+        };
+        Ok(Some(Rc::new(amplitude.delayed(delay))))
     }
 
     /// Supports stand at every instant: none begins or ends on the way.
@@ -205,7 +224,7 @@ impl<'m> Walk<'m, '_> {
     fn instants(&self, number: usize, end: f64) -> Vec<f64> {
         let mut instants = vec![end];
         for entry in self.entries.values() {
-            let Some(amplitude) = entry.amplitude else {
+            let Some(amplitude) = &entry.amplitude else {
                 continue;
             };
             let start = if amplitude.total { 0.0 } else { self.time };
@@ -222,6 +241,7 @@ impl<'m> Walk<'m, '_> {
     fn record(&mut self, number: usize, time: f64, period: f64) {
         let before = self.history.instants.len();
         self.history.instants.push(time);
+        self.history.steps.push(number);
         for (&slot, entry) in &self.entries {
             let values = self.history.values.entry(slot);
             let values = values.or_insert_with(|| vec![0.0; before]);
@@ -231,8 +251,8 @@ impl<'m> Walk<'m, '_> {
 }
 
 /// The value of a load in a step that begins at `begin`.
-fn value(entry: &Entry<'_>, number: usize, time: f64, begin: f64, period: f64) -> f64 {
-    match entry.amplitude {
+fn value(entry: &Entry, number: usize, time: f64, begin: f64, period: f64) -> f64 {
+    match &entry.amplitude {
         Some(amplitude) if amplitude.total => entry.stated * amplitude.at(time),
         Some(amplitude) if entry.step.max(1) == number => entry.stated * amplitude.at(time - begin),
         // In time of the step that stated it, which is over.
@@ -266,5 +286,9 @@ fn period(card: &Card<'_>, notes: &mut Notes) -> Result<f64, Error> {
         card,
         "increments are not needed here: one state per step and time of an amplitude",
     );
-    row.number(1, "a period", 1.0)
+    match row.number(1, "a period", 1.0)? {
+        // As where it is left out.
+        0.0 => Ok(1.0),
+        period => Ok(period),
+    }
 }

@@ -1,17 +1,19 @@
-//! What a card of loads or supports sets: a number for each node and axis, face, or element and axis.
+//! What a card of loads or supports sets: a number for each node and axis, face, element, or rigid group.
 
 use std::collections::BTreeSet;
 
 use super::material::Materials;
 use super::parts::Parts;
+use super::rigid::RigidGroups;
 use super::statement::{Notes, Stated};
+use super::transform::Transforms;
 use crate::error::Error;
 use crate::mesh_file::abaqus::{Contents, Row, Side, Space, bare};
 
 /// What a number is given for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Slot {
-    /// Displacement of a node along an axis.
+    /// Displacement of a node along an axis: a global one, or from 3 on those of the transforms, three of each.
     Held(usize, usize),
     /// Force on a node along an axis.
     Force(usize, usize),
@@ -19,6 +21,14 @@ pub(super) enum Slot {
     Pressure(Side),
     /// Force per volume of an element along an axis.
     Weight(usize, usize),
+    /// Square of the angular velocity of an element, about a line through two points, of which these are the bits.
+    Spin(usize, [u64; 6]),
+    /// Rise of the temperature of a node.
+    Heat(usize),
+    /// Displacement or, from 3 on, rotation of a rigid group.
+    Motion(usize, usize),
+    /// Force on a rigid group or, from 3 on, moment.
+    Wrench(usize, usize),
 }
 
 /// What one row of a card says.
@@ -29,19 +39,23 @@ pub(super) struct Reader<'r> {
     pub(super) contents: &'r Contents,
     pub(super) materials: &'r Materials,
     pub(super) parts: &'r Parts,
+    pub(super) rigid: &'r RigidGroups<'r, 'r>,
+    pub(super) transforms: &'r Transforms,
+    /// Temperature of every node before the first step.
+    pub(super) initial: Vec<f64>,
     pub(super) outer: BTreeSet<Side>,
 }
 
-/// Supports by name: which axes are held.
-const NAMED: [(&str, [bool; 3]); 8] = [
-    ("ENCASTRE", [true; 3]),
-    ("PINNED", [true; 3]),
-    ("XSYMM", [true, false, false]),
-    ("YSYMM", [false, true, false]),
-    ("ZSYMM", [false, false, true]),
-    ("XASYMM", [false, true, true]),
-    ("YASYMM", [true, false, true]),
-    ("ZASYMM", [true, true, false]),
+/// Supports by name: which displacements and rotations are held.
+const NAMED: [(&str, [bool; 6]); 8] = [
+    ("ENCASTRE", [true; 6]),
+    ("PINNED", [true, true, true, false, false, false]),
+    ("XSYMM", [true, false, false, false, true, true]),
+    ("YSYMM", [false, true, false, true, false, true]),
+    ("ZSYMM", [false, false, true, true, true, false]),
+    ("XASYMM", [false, true, true, true, false, false]),
+    ("YASYMM", [true, false, true, false, true, false]),
+    ("ZASYMM", [true, true, false, false, false, true]),
 ];
 
 impl Reader<'_> {
@@ -52,8 +66,8 @@ impl Reader<'_> {
         notes: &mut Notes,
     ) -> Result<Vec<Given>, Error> {
         match card.name.as_str() {
-            "BOUNDARY" => card.only(&["OP", "AMPLITUDE", "TYPE"])?,
-            _ => card.only(&["OP", "AMPLITUDE"])?,
+            "BOUNDARY" => card.only(&["OP", "AMPLITUDE", "TIMEDELAY", "TYPE"])?,
+            _ => card.only(&["OP", "AMPLITUDE", "TIMEDELAY"])?,
         }
         card.one_of("OP", &["NEW", "MOD"])?;
         card.one_of("TYPE", &["DISPLACEMENT"])?;
@@ -63,6 +77,7 @@ impl Reader<'_> {
                 "BOUNDARY" => self.held(row, notes)?,
                 "CLOAD" => self.forces(row, notes)?,
                 "DSLOAD" => self.surface_pressure(row)?,
+                "TEMPERATURE" => self.heat(row, notes)?,
                 _ => self.distributed(row)?,
             });
         }
@@ -70,17 +85,14 @@ impl Reader<'_> {
     }
 
     fn dimension(&self) -> usize {
-        match self.parts.parts.first().map(|part| part.space) {
-            Some(Space::Solid) | None => 3,
-            Some(_) => 2,
-        }
+        if self.parts.plane() { 2 } else { 3 }
     }
 
-    /// The nodes of a row's first word that some element has.
+    /// The nodes of a row's first word that some element has or that stand for a rigid group.
     fn nodes(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<usize>, Error> {
         let mut nodes = self.contents.nodes.members(row, row.word(0))?;
         let all = nodes.len();
-        nodes.retain(|&node| self.parts.of_node[node].is_some());
+        nodes.retain(|&node| self.parts.of_node[node].is_some() || self.rigid.of(node).is_some());
         if nodes.len() < all {
             notes.add(row.card, "nodes that belong to no element are left out");
         }
@@ -102,30 +114,86 @@ impl Reader<'_> {
                     let reason = format!("degrees of freedom {first} to {last}; expected a rise");
                     return Err(row.error(reason));
                 }
-                let axes = [1, 2, 3].map(|dof| (first..=last).contains(&dof));
+                let axes = [1, 2, 3, 4, 5, 6].map(|dof| (first..=last).contains(&dof));
                 (axes, row.number(3, "a displacement", 0.0)?)
             }
         };
-        let axes = (0..self.dimension()).filter(|&axis| axes[axis]);
-        let each = axes.flat_map(|axis| nodes.iter().map(move |&node| Slot::Held(node, axis)));
-        Ok(each.map(|slot| (slot, value)).collect())
+        let mut given = Vec::new();
+        for node in nodes {
+            let axes = (0..6).filter(|&axis| axes[axis]);
+            let slots = axes.filter_map(|axis| self.support(node, axis));
+            given.extend(slots.map(|slot| (slot, value)));
+        }
+        Ok(given)
+    }
+
+    /// What holds a node along an axis from 0, or its rotation from 3 on; none for what it does not have.
+    fn support(&self, node: usize, axis: usize) -> Option<Slot> {
+        if let Some((group, turns)) = self.rigid.of(node) {
+            let component = self.component(turns, axis)?;
+            return Some(Slot::Motion(group, component));
+        }
+        let own = self.transforms.of(node).map_or(0, |at| 3 * (1 + at));
+        (axis < self.dimension()).then_some(Slot::Held(node, own + axis))
+    }
+
+    /// Component of a rigid group that a degree of freedom from 0 of a node of it is.
+    fn component(&self, turns: bool, degree: usize) -> Option<usize> {
+        let component = if turns { 3 + degree } else { degree };
+        let lives = match self.dimension() {
+            3 => component < 6,
+            _ => [0, 1, 5].contains(&component),
+        };
+        lives.then_some(component)
     }
 
     fn forces(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<Given>, Error> {
         let nodes = self.nodes(row, notes)?;
         let axis = degree(row, row.word(1))? - 1;
         let force = row.number(2, "a force", None)?;
-        if axis >= self.dimension() {
+        let depth = |part: usize| self.parts.parts[part].depth();
+        let mut given = Vec::new();
+        for node in nodes {
+            if let Some((group, turns)) = self.rigid.of(node) {
+                let component = self.component(turns, axis);
+                let force = force / depth(self.rigid.groups[group].part);
+                given.extend(component.map(|at| (Slot::Wrench(group, at), force)));
+                continue;
+            }
+            let (true, Some(part)) = (axis < self.dimension(), self.parts.of_node[node]) else {
+                continue;
+            };
+            let position = self.contents.positions[node];
+            let direction = self
+                .transforms
+                .direction(node, position, axis)
+                .ok_or_else(|| {
+                    row.error(
+                        "a node on the line that its axes turn around; expected one away from it",
+                    )
+                })?;
+            let along = direction.into_iter().take(self.dimension()).enumerate();
+            let along = along.filter(|(_, n)| *n != 0.0);
+            given.extend(along.map(|(axis, n)| (Slot::Force(node, axis), n * force / depth(part))));
+        }
+        Ok(given)
+    }
+
+    /// Rises of temperature.
+    fn heat(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<Given>, Error> {
+        let value = row.number(1, "a temperature", None)?;
+        let nodes = self.contents.nodes.members(row, row.word(0))?;
+        if !self.materials.expand() {
+            notes.add(row.card, "is not needed here: nothing expands");
             return Ok(Vec::new());
         }
-        let depth = |node: usize| match self.parts.of_node[node] {
-            Some(part) => self.parts.parts[part].depth(),
-            None => 1.0,
-        };
-        let each = nodes.into_iter();
-        Ok(each
-            .map(|node| (Slot::Force(node, axis), force / depth(node)))
-            .collect())
+        let warm = nodes.iter().any(|&node| self.initial[node] != 0.0);
+        if warm && row.card.get("AMPLITUDE").is_some() {
+            let reason = "an amplitude of temperatures that do not begin at 0 is not read";
+            return Err(row.error(reason));
+        }
+        let rise = |node: usize| (Slot::Heat(node), value - self.initial[node]);
+        Ok(nodes.into_iter().map(rise).collect())
     }
 
     fn surface_pressure(&self, row: Row<'_, '_>) -> Result<Vec<Given>, Error> {
@@ -158,6 +226,7 @@ impl Reader<'_> {
             "BY" => along(1),
             "BZ" if self.dimension() == 3 => along(2),
             "GRAV" => self.weight(row, &cells, value),
+            "CENTRIF" => self.spin(row, &cells, value),
             _ if label.len() == 2 && label.starts_with('P') => cells
                 .into_iter()
                 .map(|cell| {
@@ -166,7 +235,7 @@ impl Reader<'_> {
                 })
                 .collect(),
             _ => Err(row.error(format!(
-                "load `{label}` is not read; accepted: P1 to P6, GRAV, BX, BY, BZ"
+                "load `{label}` is not read; accepted: P1 to P6, GRAV, CENTRIF, BX, BY, BZ"
             ))),
         }
     }
@@ -183,14 +252,49 @@ impl Reader<'_> {
         }
         let mut given = Vec::new();
         for &cell in cells {
-            let material = self.materials.of(cell);
-            let missing = || row.error(format!("material `{}` has no *DENSITY", material.name));
-            let density = material.density.ok_or_else(missing)?;
+            let density = self.density(row, cell)?;
             let axes = direction.iter().take(self.dimension()).enumerate();
             let axes = axes.filter(|(_, component)| **component != 0.0);
             given.extend(axes.map(|(axis, n)| (Slot::Weight(cell, axis), density * gravity * n)));
         }
         Ok(given)
+    }
+
+    fn density(&self, row: Row<'_, '_>, cell: usize) -> Result<f64, Error> {
+        let material = self.materials.of(cell);
+        let missing = || row.error(format!("material `{}` has no *DENSITY", material.name));
+        material.density.ok_or_else(missing)
+    }
+
+    /// Square of an angular velocity, a point of the axis, its direction.
+    fn spin(&self, row: Row<'_, '_>, cells: &[usize], squared: f64) -> Result<Vec<Given>, Error> {
+        let mut line = [0.0; 6];
+        for (at, number) in line.iter_mut().enumerate() {
+            *number = row.number(3 + at, "a coordinate", 0.0)?;
+        }
+        let [x, _, _, a, b, c] = line;
+        if squared < 0.0 || [a, b, c] == [0.0; 3] {
+            let reason = "expected the square of an angular velocity from 0, a point and a direction of the axis";
+            return Err(row.error(reason));
+        }
+        let astray = match self.parts.parts.first().map(|part| part.space) {
+            Some(Space::Solid) | None => None,
+            Some(Space::Axisymmetric) => {
+                (x != 0.0 || a != 0.0 || c != 0.0).then_some("the y axis, of which these are rings")
+            }
+            Some(_) => (a != 0.0 || b != 0.0).then_some("an axis along z, across the plane"),
+        };
+        if let Some(accepted) = astray {
+            return Err(row.error(format!("another axis; expected {accepted}")));
+        }
+        for &cell in cells {
+            self.density(row, cell)?;
+        }
+        let line = line.map(|x| (x + 0.0).to_bits());
+        Ok(cells
+            .iter()
+            .map(|&cell| (Slot::Spin(cell, line), squared))
+            .collect())
     }
 }
 

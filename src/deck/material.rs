@@ -1,20 +1,24 @@
-//! Materials, and the section of every element: its material and its thickness.
+//! Materials, and the section of every element: its material, where its axes point, its thickness.
 
 use std::collections::HashMap;
 
-use super::statement::{Notes, Statement};
+use super::elastic::{Elastic, elastic, expansion};
+use super::orientation::{Orientation, orientations};
+use super::statement::Statement;
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, Contents};
+use crate::mesh_file::abaqus::{Card, Contents, Space};
+use crate::scene::{SceneMaterial, SceneOrthotropic};
 
 /// An elastic material.
 #[derive(Clone, Debug)]
 pub(super) struct Material {
     /// Name in the deck.
     pub(super) name: String,
-    /// Young's modulus and Poisson's ratio.
-    pub(super) elastic: Option<[f64; 2]>,
+    pub(super) elastic: Option<Elastic>,
     /// Mass per volume.
     pub(super) density: Option<f64>,
+    /// Thermal expansion along each axis.
+    expansion: [f64; 3],
 }
 
 /// What fills a set of elements.
@@ -28,6 +32,7 @@ pub(super) struct Section {
     pub(super) material: usize,
     /// Thickness of plane elements.
     pub(super) thickness: f64,
+    orientation: Option<Orientation>,
 }
 
 /// Materials and sections of a deck.
@@ -37,25 +42,24 @@ pub(super) struct Materials {
     pub(super) sections: Vec<Section>,
     /// Section of every element.
     pub(super) of_cell: Vec<usize>,
-    /// Where thermal expansion is stated.
-    pub(super) expansion: bool,
 }
 
 impl Materials {
     /// Reads materials, then sections, which may stand before them.
-    pub(super) fn new(
-        statement: &Statement<'_, '_>,
-        contents: &Contents,
-        notes: &mut Notes,
-    ) -> Result<Self, Error> {
+    pub(super) fn new(statement: &Statement<'_, '_>, contents: &Contents) -> Result<Self, Error> {
         let (mut read, model) = (Self::default(), &statement.model);
         for (_, card) in model {
             read.read_material(card)?;
         }
+        let orientations = orientations(statement)?;
         const NONE: usize = usize::MAX;
         read.of_cell = vec![NONE; contents.elements.len()];
         for &(scope, card) in model.iter().filter(|(_, card)| card.name == "SOLIDSECTION") {
-            let section = read.section(scope, card, contents, notes)?;
+            let mut section = read.section(scope, card, contents)?;
+            if let Some(name) = card.get("ORIENTATION") {
+                let unknown = || card.error(format!("orientation `{name}` is not known"));
+                section.orientation = Some(*orientations.get(name).ok_or_else(unknown)?);
+            }
             let set = card.need("ELSET")?;
             for cell in contents.cells.members(card.head(scope), set)? {
                 read.of_cell[cell] = read.sections.len();
@@ -76,6 +80,51 @@ impl Materials {
         &self.materials[self.sections[self.of_cell[cell]].material]
     }
 
+    /// The first section that is filled as this one.
+    pub(super) fn filling(&self, section: usize) -> usize {
+        let of = |at: usize| (self.sections[at].material, self.sections[at].orientation);
+        (0..section)
+            .find(|&before| of(before) == of(section))
+            .unwrap_or(section)
+    }
+
+    /// The name of what fills a section.
+    pub(super) fn name(&self, section: usize) -> String {
+        let section = &self.sections[section];
+        let material = &self.materials[section.material].name;
+        match section.orientation {
+            None => material.clone(),
+            Some(_) => format!("{material} in {}", section.set),
+        }
+    }
+
+    /// Whether heat strains anything.
+    pub(super) fn expand(&self) -> bool {
+        self.materials
+            .iter()
+            .any(|material| material.expansion != [0.0; 3])
+    }
+
+    /// What fills a section, in a scene.
+    pub(super) fn in_scene(&self, section: usize, space: Space) -> SceneMaterial {
+        let section = &self.sections[section];
+        let material = &self.materials[section.material];
+        let (elastic, expansion) = (material.elastic.unwrap_or_default(), material.expansion);
+        let stated = match elastic {
+            Elastic::Isotropic([young, poisson]) if expansion == [expansion[0]; 3] => {
+                SceneMaterial::new(young, poisson).with_expansion(expansion[0])
+            }
+            _ => SceneMaterial::orthotropic(SceneOrthotropic {
+                expansion: Some(expansion),
+                axes: section
+                    .orientation
+                    .map(|orientation| orientation.axes(space)),
+                ..elastic.constants()
+            }),
+        };
+        stated.with_density(material.density.unwrap_or_default())
+    }
+
     fn read_material(&mut self, card: &Card<'_>) -> Result<(), Error> {
         let last = self.materials.last_mut();
         let orphan = || card.error("expected *MATERIAL before");
@@ -90,19 +139,16 @@ impl Materials {
                     name,
                     elastic: None,
                     density: None,
+                    expansion: [0.0; 3],
                 });
             }
-            "ELASTIC" => {
-                card.only(&["TYPE"])?;
-                card.one_of("TYPE", &["ISO", "ISOTROPIC"])?;
-                last.ok_or_else(orphan)?.elastic = Some(elastic(card)?);
-            }
+            "ELASTIC" => last.ok_or_else(orphan)?.elastic = Some(elastic(card)?),
             "DENSITY" => {
                 let row = card.row("one density")?;
                 let density = row.number(0, "a density", None)?;
                 last.ok_or_else(orphan)?.density = Some(density);
             }
-            "EXPANSION" => self.expansion = true,
+            "EXPANSION" => last.ok_or_else(orphan)?.expansion = expansion(card)?,
             _ => {}
         }
         Ok(())
@@ -113,15 +159,8 @@ impl Materials {
         scope: usize,
         card: &Card<'_>,
         contents: &Contents,
-        notes: &mut Notes,
     ) -> Result<Section, Error> {
         card.only(&["ELSET", "MATERIAL", "ORIENTATION", "CONTROLS"])?;
-        if card.get("ORIENTATION").is_some() {
-            notes.add(
-                card,
-                "`ORIENTATION` is not needed here: materials are isotropic",
-            );
-        }
         let (set, material) = (card.need("ELSET")?, card.need("MATERIAL")?);
         let known: HashMap<&str, usize> = (self.materials.iter().enumerate())
             .map(|(at, material)| (material.name.as_str(), at))
@@ -143,18 +182,7 @@ impl Materials {
             place: card.place(),
             material: found,
             thickness,
+            orientation: None,
         })
     }
-}
-
-fn elastic(card: &Card<'_>) -> Result<[f64; 2], Error> {
-    let row = card.row("Young's modulus and Poisson's ratio, the same at every temperature")?;
-    let young = row.number(0, "Young's modulus", None)?;
-    let poisson = row.number(1, "Poisson's ratio", None)?;
-    if young <= 0.0 || poisson <= -1.0 || poisson >= 0.5 {
-        return Err(row.error(format!(
-            "moduli {young}, {poisson}; expected E > 0 and -1 < ν < 0.5"
-        )));
-    }
-    Ok([young, poisson])
 }

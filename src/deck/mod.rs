@@ -3,37 +3,72 @@
 //! ```text
 //! mesh_file/abaqus   lines → cards → instances written out → nodes, elements, sets, surfaces
 //! statement          which cards state the model, which the steps, which are left or refused
-//! material, parts    sections; connected parts become bodies
-//! interaction        laws and pairs of surfaces;   adjust   slave nodes moved onto the master
+//! material, parts    sections, constants, orientations; connected parts become bodies
+//! interaction, pair  laws, and the surfaces that obey them; adjust   slave nodes moved onto the master
+//! transform, rigid, cyclic   directions of nodes, nodes that move as one, sectors that repeat
 //! load, amplitude    what a card gives;            history  what holds at every instant
-//! assemble           the scene
+//! acting, assemble   the scene
 //! ```
 //!
 //! | read | how |
 //! |---|---|
-//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D8, C3D10, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; every connected part is a body |
+//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; every connected part is a body, with incompatible modes if an element of it has them (C3D8I, CPE4I) |
 //! | `*SURFACE` | by faces, by elements (all outer faces), by nodes (outer faces whose corners are all in the set) |
-//! | `*MATERIAL`, `*ELASTIC`, `*DENSITY`, `*SOLID SECTION` | isotropic; a thickness is that of plane stress, and what forces of plane strain are divided by |
-//! | `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*SURFACE BEHAVIOR`, `*FRICTION` | hard contact with friction, slave first; a penalty is left out, with a note below 100 E / h of the cells there, and refused as a soft layer below 10 E / h; stick slopes are left out |
-//! | `ADJUST=` | slave nodes that overlap, or are near, or of a set, are moved onto the master surface |
-//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, ramp, end with `OP=NEW`; supports stay |
+//! | `*MATERIAL`, `*ELASTIC`, `*DENSITY`, `*EXPANSION`, `*ORIENTATION`, `*SOLID SECTION` | isotropic, by engineering constants, or orthotropic; a thickness is that of plane stress, and what forces of plane strain are divided by |
+//! | `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*SURFACE BEHAVIOR`, `*FRICTION` | contact with friction, slave first; a penalty or a stick slope from 100 E / h of the cells there on is left out, a softer one kept as a layer (exponential ones are left out with a note, and refused below 10 E / h); TIED (with a stick slope), NO SEPARATION, ROUGH |
+//! | `*TIE` | slave faces that are near enough are moved onto the master and one with it |
+//! | `ADJUST=`, `*CLEARANCE` | slave nodes that overlap, or are near, or of a set, are moved onto the master surface; a distance in place of none that is drawn |
+//! | `*MODEL CHANGE` of pairs | in the steps in which they are taken out their gap is ten times the size of the deck |
+//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, CENTRIF, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, ramp, end with `OP=NEW`; supports stay |
+//! | `*INITIAL CONDITIONS, TYPE=TEMPERATURE`, `*TEMPERATURE` | the rise strains by the expansion |
+//! | `*TRANSFORM` | of supports and forces, straight or around a line |
+//! | `*RIGID BODY`, `*COUPLING` with `*KINEMATIC` of all directions | nodes of one part move as a rigid body, by what is stated at the reference node in one history |
+//! | `*TIE, CYCLIC SYMMETRY`, `*CYCLIC SYMMETRY MODEL` | faces that turn onto each other node by node move as one |
 //! | `*STEP`, `*STATIC` | an instant per step and per time of an amplitude; `NLGEOM` is noted, displacements are small |
 //!
-//! What changes the mechanics and is not read is refused by file, line and keyword: shells, beams,
-//! tied surfaces, equations, rigid bodies, couplings, preloaded bolts, springs, thermal
-//! expansion, plasticity, dynamics, contacts that come and go. What steers a numerical method, and
-//! steps of `*FREQUENCY`, are noted and left. Numbers keep the deck's units. Sources: Abaqus keywords
-//! reference, CalculiX CrunchiX user's manual.
+//! What changes the mechanics and is not read is refused by file, line and keyword: shells, beams, gap
+//! elements, equations, preloaded bolts, springs, plasticity, dynamics, laws that change, elements that come
+//! and go, supports that do. What steers a numerical method, and steps of `*FREQUENCY`, are noted and left.
+//! Numbers keep the deck's units.
+//!
+//! # Beside CalculiX
+//!
+//! Largest difference of a node's displacement over the largest displacement, for eight of CalculiX' own tests as its
+//! version 2.20 solves them (all pairs `TYPE=LINMORTAR`, without `NLGEOM`; its results have six digits):
+//!
+//! | test | with its own penalty | penalty and stick slope times 10⁴ |
+//! |---|---:|---:|
+//! | testmortar | 1.1e-6 | 1.1e-6 |
+//! | cubespring | 7.8e-7 | 1.7e-5 |
+//! | friction1 | 1.2e-6 | 4.3e-6 |
+//! | contact5 | 1.1e-6 | 1.5e-5 |
+//! | cubesmortar | 1.2e-6 | 1.0e-5 |
+//! | cubesmortar2, with a stick slope of 10⁵ | 1.1e-6 | 3.8e-6 |
+//! | contact4_mortar | 7.5e-6 | 7.7e-6 |
+//! | contact14 (`*CLEARANCE`, `*MODEL CHANGE`), LINEAR in place of HARD | | 2.5e-6 |
+//!
+//! Its axisymmetric elements are solids of 2°, whose chords are shorter than their arcs by 1.5e-4: so far apart are ring1
+//! and ring2 (heat). Of 100 decks of static elastic contact in public repositories, 92 with their meshes, 52 are
+//! read; the rest is refused by keyword and line: shells 8, preloaded bolts 6, gap elements and equations 4 each.
+//!
+//! Sources: Abaqus keywords reference, CalculiX CrunchiX user's manual.
 
+mod acting;
 mod adjust;
 mod amplitude;
 mod assemble;
+mod cyclic;
+mod elastic;
 mod history;
 mod interaction;
 mod load;
 mod material;
+mod orientation;
+mod pair;
 mod parts;
+mod rigid;
 mod statement;
+mod transform;
 
 use std::path::Path;
 
@@ -43,12 +78,15 @@ use crate::scene::{Scene, read};
 
 use amplitude::amplitudes;
 use assemble::Stock;
+use cyclic::repeats;
 use history::History;
-use interaction::Contacts;
 use load::Reader;
 use material::Materials;
+use pair::Contacts;
 use parts::Parts;
+use rigid::RigidGroups;
 use statement::{Notes, Statement};
+use transform::Transforms;
 
 /// A deck that was read.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,25 +158,54 @@ fn stock<'a, 'c>(
     mut contents: Contents,
     notes: &mut Notes,
 ) -> Result<Stock<'a, 'c>, Error> {
-    let model = &statement.model;
-    let materials = Materials::new(statement, &contents, notes)?;
+    let materials = Materials::new(statement, &contents)?;
     let parts = Parts::new(&contents, &materials)?;
-    let contacts = Contacts::new(statement, &contents, notes)?;
+    let mut contacts = Contacts::new(statement, &contents, notes)?;
+    let transforms = Transforms::new(statement, &contents)?;
+    let rigid = RigidGroups::new(statement, &contents, &parts)?;
+    let repeats = repeats(statement, &contents, &parts)?;
     let reader = Reader {
         contents: &contents,
         materials: &materials,
         parts: &parts,
+        rigid: &rigid,
+        transforms: &transforms,
+        initial: initial_temperatures(statement, &contents)?,
         outer: contents.outer_sides(),
     };
-    let history = History::new(statement, &amplitudes(model)?, reader, notes)?;
-    for pair in &contacts.pairs {
-        adjust::adjust(&mut contents, pair);
+    let history = History::new(statement, &amplitudes(&statement.model)?, reader, notes)?;
+    for pair in &mut contacts.pairs {
+        adjust::settle(&mut contents, pair, notes)?;
     }
     Ok(Stock {
         contents,
         materials,
         parts,
         contacts,
+        transforms,
+        rigid,
+        repeats,
         history,
     })
+}
+
+/// Temperature of every node before the first step, 0 where none is stated.
+fn initial_temperatures(
+    statement: &Statement<'_, '_>,
+    contents: &Contents,
+) -> Result<Vec<f64>, Error> {
+    let mut initial = vec![0.0; contents.positions.len()];
+    let model = statement.model.iter();
+    for &(scope, card) in model.filter(|(_, card)| card.name == "INITIALCONDITIONS") {
+        card.only(&["TYPE"])?;
+        card.need("TYPE")?;
+        card.one_of("TYPE", &["TEMPERATURE"])?;
+        for row in card.rows(scope) {
+            let value = row.number(1, "a temperature", None)?;
+            for node in contents.nodes.members(row, row.word(0))? {
+                initial[node] = value;
+            }
+        }
+    }
+    Ok(initial)
 }

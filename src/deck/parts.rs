@@ -83,6 +83,12 @@ impl Parts {
         Ok(found)
     }
 
+    /// Whether the deck lives in 2D.
+    pub(super) fn plane(&self) -> bool {
+        let first = self.parts.first();
+        first.is_some_and(|part| part.space != Space::Solid)
+    }
+
     /// Forces are per unit depth of plane strain: bodies that press each other share one depth.
     fn check_together(&self) -> Result<(), Error> {
         let Some(first) = self.parts.first() else {

@@ -9,11 +9,12 @@ use crate::error::Error;
 use crate::mesh_file::abaqus::{Card, Flat, KEYWORDS};
 
 /// Keywords that state the model.
-const MODEL: &str = "MATERIAL ELASTIC DENSITY EXPANSION SOLIDSECTION SURFACEINTERACTION SURFACEBEHAVIOR \
-    FRICTION CONTACTPAIR BOUNDARY";
+const MODEL: &str = "MATERIAL ELASTIC DENSITY EXPANSION SOLIDSECTION ORIENTATION SURFACEINTERACTION \
+    SURFACEBEHAVIOR FRICTION CONTACTPAIR CLEARANCE TIE CYCLICSYMMETRYMODEL TRANSFORM RIGIDBODY COUPLING \
+    KINEMATIC INITIALCONDITIONS BOUNDARY";
 
 /// Keywords that state a step.
-const STEP: &str = "BOUNDARY CLOAD DLOAD DSLOAD TEMPERATURE";
+const STEP: &str = "BOUNDARY CLOAD DLOAD DSLOAD TEMPERATURE MODELCHANGE";
 
 /// Keywords that ask for output.
 const OUTPUT: &str = "HEADING NODEFILE NODEPRINT NODEOUTPUT ELFILE ELPRINT ELEMENTOUTPUT CONTACTFILE \
@@ -23,10 +24,10 @@ const OUTPUT: &str = "HEADING NODEFILE NODEPRINT NODEOUTPUT ELFILE ELPRINT ELEME
 
 /// Keywords that steer a numerical method, or state what elastic bodies at rest do not feel.
 const NUMERICS: &str = "CONTROLS CONTACTCONTROLS CONTACTDAMPING SECTIONCONTROLS SOLUTIONTECHNIQUE CONDUCTIVITY \
-    SPECIFICHEAT GAPCONDUCTANCE DAMPING PHYSICALCONSTANTS INITIALCONDITIONS ORIENTATION";
+    SPECIFICHEAT GAPCONDUCTANCE DAMPING PHYSICALCONSTANTS SELECTCYCLICSYMMETRYMODES";
 
 /// What is refused, and its keywords.
-const REFUSED: [(&str, &str); 26] = [
+const REFUSED: [(&str, &str); 20] = [
     ("motion with inertia", "DYNAMIC"),
     (
         "temperature as an unknown",
@@ -37,28 +38,22 @@ const REFUSED: [(&str, &str); 26] = [
     ("shells", "SHELLSECTION SHELLGENERALSECTION"),
     ("beams", "BEAMSECTION BEAMGENERALSECTION"),
     ("membranes", "MEMBRANESECTION"),
-    ("surfaces glued together", "TIE"),
     ("equations between displacements", "EQUATION MPC"),
-    ("nodes that move as one rigid body", "RIGIDBODY"),
     (
-        "a surface coupled to a node",
-        "COUPLING KINEMATIC DISTRIBUTING DISTRIBUTINGCOUPLING",
+        "a node that moves as the mean of a surface",
+        "DISTRIBUTING DISTRIBUTINGCOUPLING",
     ),
     ("preloaded bolts", "PRE-TENSIONSECTION"),
-    ("contacts or elements that come and go", "MODELCHANGE"),
     ("gap elements", "GAP"),
-    ("a gap stated apart from the mesh", "CLEARANCE"),
     (
         "an overlap stated apart from the mesh",
         "CONTACTINTERFERENCE",
     ),
     ("contact of all with all; state *CONTACT PAIR", "CONTACT"),
     ("springs", "SPRING"),
-    ("directions of a node's own", "TRANSFORM"),
     ("plasticity", "PLASTIC"),
     ("large strain", "HYPERELASTIC"),
     ("a material of the user's", "USERMATERIAL"),
-    ("cyclic symmetry", "CYCLICSYMMETRYMODEL"),
     ("friction that changes", "CHANGEFRICTION"),
     (
         "a law of contact that changes",
@@ -87,6 +82,8 @@ pub(super) struct Statement<'a, 'c> {
     pub(super) model: Vec<Stated<'a, 'c>>,
     /// Static steps.
     pub(super) steps: Vec<Step<'a, 'c>>,
+    /// Pairs of surfaces taken out or in by steps that are left out.
+    changes: Vec<Stated<'a, 'c>>,
 }
 
 /// What was read and left, in words, each once.
@@ -169,6 +166,8 @@ impl<'a, 'c> Statement<'a, 'c> {
                 frequency,
                 "vibrations are not computed: the step is left out",
             );
+            let changes = inside.iter().filter(|(_, card)| card.name == "MODELCHANGE");
+            self.changes.extend(changes);
             return Ok(());
         }
         if card.get("PERTURBATION").is_some() {
@@ -177,7 +176,7 @@ impl<'a, 'c> Statement<'a, 'c> {
         if card.get("NLGEOM").is_some_and(|value| value != "NO") {
             notes.add(card, "`NLGEOM`: displacements count as small here");
         }
-        let (mut procedure, mut cards) = (None, Vec::new());
+        let (mut procedure, mut cards) = (None, std::mem::take(&mut self.changes));
         for &(scope, inner) in inside {
             match inner.name.as_str() {
                 "STATIC" => procedure = Some(inner),
@@ -204,9 +203,6 @@ fn leave(card: &Card<'_>, notes: &mut Notes, place: &str) -> Result<(), Error> {
     let name = card.name.as_str();
     if KEYWORDS.contains(&name) || name == "HEADING" {
         return Ok(());
-    }
-    if name == "INITIALCONDITIONS" {
-        card.one_of("TYPE", &["TEMPERATURE"])?;
     }
     if has(OUTPUT, name) || has(NUMERICS, name) {
         notes.add(card, "is not needed here");

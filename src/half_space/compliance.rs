@@ -67,6 +67,11 @@ impl SurfaceCompliance {
         Ok(sum)
     }
 
+    /// |β|: what a pressure moves along the surface over what it moves along the normal (Dundurs).
+    pub(super) fn dundurs(&self) -> f64 {
+        0.5 * (self.coupling / self.direct).abs()
+    }
+
     fn of(half: ElasticHalf) -> Self {
         let (poisson, shear) = (half.poisson, half.shear());
         Self {

@@ -14,6 +14,8 @@
 //! block elimination of dδ and dU. A step whose projection on the laws does not lower the residual
 //! is halved; where that fails too, the loop goes on with half-steps.
 
+use std::collections::VecDeque;
+
 use super::coupled::Coupled;
 use super::gmres::{Linear, gmres};
 use super::points::Points;
@@ -22,6 +24,10 @@ use super::vectors::{Pair, add, total};
 
 /// Newton steps.
 const MOST_STEPS: usize = 20;
+
+/// Steps whose largest residual the next one has to be below: where contacts change their state, a good step
+/// may raise it (Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707–716).
+const MEMORY: usize = 4;
 
 /// Share of the diagonal's Λ in the preconditioner, as in the friction half-step.
 const CURVATURE: f64 = 0.7;
@@ -44,22 +50,33 @@ struct Tangent<'a> {
 }
 
 impl HalfSpaceProblem {
-    /// Newton steps until the residual is below the tolerance, as long as they help.
+    /// Newton steps until the residual is below the tolerance, as long as they help; gives the best state.
     pub(super) fn finish(&self, mut state: Coupled, tolerance: f64) -> Coupled {
+        let (mut best, mut last) = (state.clone(), VecDeque::from([state.residual]));
         for _ in 0..MOST_STEPS {
-            if state.residual <= tolerance {
+            if best.residual <= tolerance {
                 break;
             }
-            let Some(next) = self.newton(&state, tolerance) else {
+            let most = last
+                .iter()
+                .fold(0.0, |most: f64, residual| most.max(*residual));
+            let Some(next) = self.newton(&state, most, tolerance) else {
                 break;
             };
             state = next;
+            if state.residual < best.residual {
+                best = state.clone();
+            }
+            last.push_back(state.residual);
+            if last.len() > MEMORY {
+                last.pop_front();
+            }
         }
-        state
+        best
     }
 
-    /// One step of (S13); nothing if it does not lower the residual by a tenth.
-    fn newton(&self, state: &Coupled, tolerance: f64) -> Option<Coupled> {
+    /// One step of (S13); nothing if it does not lower the residual by a tenth of `most`.
+    fn newton(&self, state: &Coupled, most: f64, tolerance: f64) -> Option<Coupled> {
         let tangent = Tangent::new(self, state);
         if tangent.points.is_empty() {
             return None;
@@ -76,7 +93,7 @@ impl HalfSpaceProblem {
         let mut share = 1.0;
         for _ in 0..4 {
             let next = tangent.moved(&placed, &step, share);
-            if next.residual < 0.9 * state.residual {
+            if next.residual < 0.9 * most {
                 return Some(next);
             }
             share *= 0.5;

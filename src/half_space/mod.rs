@@ -13,6 +13,7 @@
 //! (S10), (S11)  resultants, operator             `judge`: by products and direct sums alone
 //! (S12) random surfaces                          `rough`
 //! (S13) all laws at once                         `finish`: Newton's method with GMRES
+//! (S17) strong friction                          `growing`: the coefficient grows to what it is
 //! (S14) rolling                                  `rolling`
 //! (S15) power spectrum                           `spectrum`
 //! (S16) stiffness                                `stiffness`
@@ -57,6 +58,7 @@ mod finish;
 mod friction;
 mod gmres;
 mod grid;
+mod growing;
 mod judge;
 mod normal;
 mod operator;

@@ -136,6 +136,11 @@ impl HalfSpace {
         self.compliance.coupling != 0.0
     }
 
+    /// |β| of the materials.
+    pub(super) fn dundurs(&self) -> f64 {
+        self.compliance.dundurs()
+    }
+
     /// Two-dimensional transforms done so far; six are one application.
     #[must_use]
     pub fn transforms(&self) -> usize {

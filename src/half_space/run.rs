@@ -9,6 +9,7 @@
 //! until     natural map (K1) of all contacts ≤ tolerance
 //! ```
 
+use super::coupled::Coupled;
 use super::judge::judge;
 use super::outcome::{HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork};
 use super::problem::HalfSpaceProblem;
@@ -29,6 +30,9 @@ const MOST_OUTER: usize = 100;
 
 /// Fall of the residual in one sweep above which Newton's method is tried.
 const SLOW: f64 = 0.25;
+
+/// Largest μ|β| beyond which half-steps in turn part from the solution.
+const STRONG: f64 = 1.0;
 
 /// Least share of friction's lift that a damped sweep passes on.
 const LEAST_SHARE: f64 = 1.0 / 32.0;
@@ -127,7 +131,11 @@ impl HalfSpaceProblem {
     }
 
     /// A start by the same problem on a coarser grid, if there is one.
-    fn start(&self, tolerance: f64, work: &mut HalfSpaceWork) -> Result<Progress, Error> {
+    pub(super) fn start(
+        &self,
+        tolerance: f64,
+        work: &mut HalfSpaceWork,
+    ) -> Result<Progress, Error> {
         let Some(coarse) = self.coarser()? else {
             return Ok(Progress::new(Iterate::new(self), 0.3));
         };
@@ -140,8 +148,14 @@ impl HalfSpaceProblem {
         Ok(Progress::new(end.iterate.refined(&coarse, self), 0.1))
     }
 
-    fn run(&self, mut progress: Progress, tolerance: f64, work: &mut HalfSpaceWork) -> Progress {
+    pub(super) fn run(
+        &self,
+        mut progress: Progress,
+        tolerance: f64,
+        work: &mut HalfSpaceWork,
+    ) -> Progress {
         let before = self.operator.transforms();
+        let mut may_grow = self.strength() > STRONG;
         for outer in 1..=MOST_OUTER {
             work.outer = outer;
             let fall = progress.sweep(self, tolerance);
@@ -151,6 +165,16 @@ impl HalfSpaceProblem {
             let newton = outer > 1 && fall > SLOW && progress.newton(self, tolerance);
             if progress.ends(tolerance) {
                 break;
+            }
+            if may_grow && !newton && progress.share < 1.0 {
+                may_grow = false;
+                if let Some(state) = self.grown(tolerance, work) {
+                    progress.take(self, &state);
+                    if progress.ends(tolerance) {
+                        break;
+                    }
+                    continue;
+                }
             }
             if !newton {
                 progress.damp();
@@ -174,8 +198,8 @@ fn check_tolerance(tolerance: f64) -> Result<(), Error> {
 }
 
 /// Where the loop stands, and how well it goes.
-struct Progress {
-    iterate: Iterate,
+pub(super) struct Progress {
+    pub(super) iterate: Iterate,
     residual: f64,
     /// Least residual so far.
     best: f64,
@@ -228,9 +252,13 @@ impl Progress {
         if end.residual >= self.residual {
             return false;
         }
-        self.iterate = Iterate::of(problem, &end);
-        self.residual = end.residual;
+        self.take(problem, &end);
         self.residual < 0.1 * self.tried
+    }
+
+    fn take(&mut self, problem: &HalfSpaceProblem, state: &Coupled) {
+        self.iterate = Iterate::of(problem, state);
+        self.residual = state.residual;
     }
 
     /// Half the share where sweeps do not get on: eigenvalues ±iμβ beyond 1 then come inside.

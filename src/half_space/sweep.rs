@@ -12,6 +12,10 @@ use crate::error::Error;
 /// Relative tolerance of the stiffness K that corrects the shift: it only steers.
 const STIFFNESS: f64 = 0.1;
 
+/// Longest move of the other side at a time, over the longest slip, once there is any: what all contacts that
+/// slip carry nears the edge like the inverse square of the shift, to which a tangent tells nothing far away.
+const FARTHEST: f64 = 3.0;
+
 /// A contact this close to the edge of its disc, relative to the radius, is scaled with it.
 const ON_EDGE: f64 = 1e-9;
 
@@ -312,6 +316,9 @@ impl HalfSpaceProblem {
             (k_yy * missing[0] - k_xy * missing[1]) / determinant,
             (k_xx * missing[1] - k_yx * missing[0]) / determinant,
         ];
+        let slips = (0..contacts).map(|at| iterate.slip[0][at].hypot(iterate.slip[1][at]));
+        let longest = FARTHEST * slips.fold(0.0, f64::max) / moved[0].hypot(moved[1]);
+        let moved = moved.map(|part| part * longest.min(1.0));
         for axis in 0..2 {
             iterate.shift[axis] += moved[axis];
             add_pair(&mut iterate.rubbing, moved[axis], &steps[axis]);

@@ -178,18 +178,12 @@ mod tests {
             };
             let operator = Operator::from_compliance(mat![[0.25]]).unwrap();
             Self {
-                body: Body {
-                    name: "spring".into(),
-                    mesh: Mesh::new(2, vec![[3.0, 1.0, 0.0], [3.0, 0.0, 0.0]]),
-                    model: Model::PlaneStrain,
-                    materials: vec![],
-                    material_of_cell: vec![],
-                    supports: vec![],
-                    loads: vec![],
-                    foundation: vec![],
-                    formulation: crate::body::Formulation::Standard,
-                    ties: Vec::new(),
-                },
+                body: Body::new(
+                    "spring",
+                    Mesh::new(2, vec![[3.0, 1.0, 0.0], [3.0, 0.0, 0.0]]),
+                    Model::PlaneStrain,
+                    vec![],
+                ),
                 stiffness: entries.to_csr(),
                 surface: ContactSurface {
                     nodes: vec![contact],

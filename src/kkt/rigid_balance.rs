@@ -47,12 +47,9 @@ pub fn rigid_balance(
     rigid: &RigidBody,
     given: [f64; 6],
 ) -> Result<RigidBalance, Error> {
-    let [f_x, f_y, f_z, m_x, m_y, m_z] = given;
+    let [force, moment] = rigid.wrench(given);
     let mut found = RigidBalance {
-        given: Resultant {
-            force: [f_x, f_y, f_z],
-            moment: [m_x, m_y, m_z],
-        },
+        given: Resultant { force, moment },
         ..RigidBalance::default()
     };
     let Some(first) = states.first() else {
@@ -67,7 +64,8 @@ pub fn rigid_balance(
     let contacts = first.surface.nodes.iter().enumerate();
     for (i, contact) in contacts.filter(|(_, contact)| rigid.pairs.contains(&contact.pair)) {
         let on_body = global_force(contact, block(first.problem, i, first.reaction));
-        for share in shares(contact) {
+        // What is between two faces is in balance if it is with the first.
+        for share in shares(contact).filter(|share| share.own != contact.second) {
             let Some(x) =
                 (states.get(share.body)).and_then(|at| at.body.mesh.nodes.get(share.node))
             else {
@@ -80,16 +78,15 @@ pub fn rigid_balance(
             turning += length(arm) * length(force);
         }
     }
-    let free: Vec<usize> = rigid.free().collect();
-    let left = |first: usize, [a, b]: [[f64; 3]; 2]| {
-        [0, 1, 2].map(|axis| match free.contains(&(first + axis)) {
-            true => a[axis] + b[axis],
-            false => 0.0,
-        })
-    };
     let (contact, given) = (found.contact, found.given);
-    found.force_defect = Defect::of(&[left(0, [contact.force, given.force])], total);
-    found.moment_defect = Defect::of(&[left(3, [contact.moment, given.moment])], turning);
+    let force = [0, 1, 2].map(|axis| contact.force[axis] + given.force[axis]);
+    let free: Vec<usize> = rigid.free().collect();
+    let moment = [0, 1, 2].map(|axis| match free.contains(&(3 + axis)) {
+        true => contact.moment[axis] + given.moment[axis],
+        false => 0.0,
+    });
+    found.force_defect = Defect::of(&[rigid.freely(force)], total);
+    found.moment_defect = Defect::of(&[moment], turning);
     Ok(found)
 }
 
@@ -115,6 +112,7 @@ mod tests {
             reference: [0.0, 2.0, 0.0],
             components: [FREE, FREE, HELD, HELD, HELD, FREE],
             pairs: vec![0],
+            cut: None,
         };
         let stiffness = TriMat::new((2, 2)).to_csr();
         let state = BodyState {
@@ -144,6 +142,55 @@ mod tests {
             (0.0, 0.0)
         );
         assert!(found.holds());
+    }
+
+    /// The lid is tied to the box, and what is between them carries a force of `given` newton.
+    fn cut_under(reaction: &[f64; 2], given: f64, second: bool) -> RigidBalance {
+        let (bodies, mut surface, problem) = lid_on_box(0.0);
+        surface.nodes[0].second = second;
+        // From the first side to the second: the lid lies on the box.
+        let towards = [0.0, if second { 1.0 } else { -1.0 }, 0.0];
+        let between = RigidBody {
+            place: "bodies[0].bolts[0]".into(),
+            name: "bolt".into(),
+            reference: [1.0, 0.0, 0.0],
+            components: [Component::Free(given), HELD, HELD, HELD, HELD, HELD],
+            pairs: vec![0],
+            cut: Some(crate::contact::Cut {
+                towards,
+                locked_from: None,
+            }),
+        };
+        let stiffness = TriMat::new((2, 2)).to_csr();
+        let displacement = [0.0; 4];
+        let state = |index: usize| BodyState {
+            index,
+            body: &bodies[index],
+            stiffness: &stiffness,
+            load: &displacement,
+            prescribed: &[],
+            equations: &[],
+            values: &[],
+            surface: &surface,
+            problem: &problem,
+            reaction,
+            displacement: &displacement,
+        };
+        let states = [state(0), state(1)];
+        rigid_balance(&states, &between, [given, 0.0, 0.0, 0.0, 0.0, 0.0]).unwrap()
+    }
+
+    #[test]
+    fn what_is_between_two_sides_answers_the_pull_of_the_first_along_the_cut() {
+        // 8 N of tension, and 2 N across that the tie bears.
+        for second in [false, true] {
+            let found = cut_under(&[8.0, 2.0], 8.0, second);
+            assert!(found.force_defect.value < 1e-15, "{found:?}");
+            assert!(found.holds());
+            let found = cut_under(&[7.0, 2.0], 8.0, second);
+            assert!((found.force_defect.value - 1.0).abs() < 1e-15, "{found:?}");
+            assert!(!found.holds());
+        }
     }
 
     #[test]

@@ -35,7 +35,8 @@ pub struct Request {
 /// returns the finest state, and the total with its error.
 ///
 /// Every cell is split into halves along each axis, so that curved cells stay curved; a polygon of linear
-/// cells stays a polygon, and so does what its answer goes to.
+/// cells stays a polygon, and so does what its answer goes to. A displacement is that of the first mesh's node nearest to the
+/// point, on all meshes.
 ///
 /// ```
 /// use dpana::{Request, Scene, solve_within};
@@ -63,7 +64,7 @@ pub fn solve_within(
     request: &Request,
     mut each: impl FnMut(&AccuracyLevel),
 ) -> Result<(Solution, Accuracy), Error> {
-    let total = Total::parse(&request.of).map_err(|error| scene.locate(error))?;
+    let mut total = Total::parse(&request.of).map_err(|error| scene.locate(error))?;
     check(request)?;
     let mut scene = match request.meshes.first() {
         None => scene.clone(),
@@ -78,6 +79,9 @@ pub fn solve_within(
                 found: format!("a state without certificate on mesh {}", levels.len() + 1),
                 accepted: "states that are certified; `dpana solve` says what is wrong".to_owned(),
             }));
+        }
+        if levels.is_empty() {
+            total = total.kept(&solution).map_err(|error| scene.locate(error))?;
         }
         let level = AccuracyLevel {
             cells: solution
@@ -119,8 +123,8 @@ fn stopped(request: &Request, solution: &Solution, solved: usize) -> Option<Stri
     let dimension = solution.bodies()[0].mesh.dimension;
     let work = solution.condensed().work();
     let contact = solution.condensed().problem().unknowns() << (dimension - 1);
-    let factor = FACTOR[dimension - 2] * work.factor_entries;
-    let bytes = 8 * (DENSE * contact * contact + factor);
+    let factor = FACTOR[dimension - 2] * work.factor_bytes;
+    let bytes = 8 * DENSE * contact * contact + factor;
     (bytes > request.memory).then(|| {
         let [needed, most] = [bytes, request.memory].map(|bytes| bytes as f64 * 1e-9);
         format!("the next mesh takes about {needed:.3} GB of the {most:.3} GB there are")

@@ -3,7 +3,7 @@
 
 use crate::body;
 use crate::body::Support;
-use crate::condensation::{Driven, Estimate, RigidBodies, dense_bytes, estimate};
+use crate::condensation::{Driven, Estimate, Precision, RigidBodies, dense_bytes, estimate};
 use crate::contact::ContactSurface;
 use crate::error::Error;
 use crate::scene::{LoadHistory, Mechanics, Scene};
@@ -39,6 +39,12 @@ fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
     let rigid = RigidBodies::new(bodies, &mechanics.contacts, &mechanics.rigid_bodies)?;
     let dense_bytes = dense_bytes(rigid.surface())?;
     check_supports(&mechanics)?;
+    let once = mechanics.history.instants().is_empty() && mechanics.rigid_bodies.is_empty();
+    let precision = if once {
+        Precision::Single
+    } else {
+        Precision::Double
+    };
     let free_modes = bodies.iter().map(|body| {
         let prescribed = body::prescribed(body)?;
         Ok(body::free_modes(body, &prescribed).modes.len())
@@ -46,7 +52,7 @@ fn checked(mechanics: Mechanics) -> Result<Checked, Error> {
     Ok(Checked {
         free_modes: free_modes.collect::<Result<_, Error>>()?,
         dense_bytes,
-        estimate: estimate(bodies, rigid.surface())?,
+        estimate: estimate(bodies, rigid.surface(), precision)?,
         surface: rigid.into_surface(),
         mechanics,
     })

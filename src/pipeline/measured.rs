@@ -12,7 +12,7 @@ use crate::kkt::{Balance, BodyState, PairFit, RigidBalance, SceneGeometry, Surro
 const FOLLOWED: f64 = 1e-6;
 
 /// Part of the largest displacement without contact forces that is round-off: what a slender body would move by is
-/// many times what it does.
+/// many times what it does, and û + G t has no gap finer than that.
 const ROUNDED: f64 = 16.0 * f64::EPSILON;
 
 /// What acts on the contact pairs beside loads and supports.
@@ -84,7 +84,11 @@ impl Measured {
                     obstacles: &condensed.pair_motions(&acting.obstacles, &outcome.motion),
                     openings: &acting.openings,
                     residual: outcome.verdict.certificate.residual(),
-                    departure: if follows { departure.value } else { 0.0 },
+                    departure: if follows {
+                        departure.value.max(ROUNDED * free)
+                    } else {
+                        0.0
+                    },
                 },
             )?,
         })

@@ -5,6 +5,7 @@ mod accuracy;
 mod cases;
 mod check;
 mod corrected;
+mod error_bound;
 mod find;
 mod half_space;
 mod half_space_cases;
@@ -21,10 +22,11 @@ use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::Instant;
 
+use crate::alternation;
 use crate::alternation::{Outcome, Settings, Status};
 use crate::body::{Body, Extremes};
-use crate::condensation::{Condensed, Driven};
-use crate::contact::{ContactPair, Opposite};
+use crate::condensation::{Condensed, Driven, Engine};
+use crate::contact::{ContactPair, Opposite, RigidBody};
 use crate::error::Error;
 use crate::kkt::{PairFit, SceneGeometry};
 #[cfg(feature = "cli")]
@@ -77,7 +79,27 @@ struct Setup {
 }
 
 impl Setup {
+    /// Bodies in double precision, for problems that are solved again and again.
     fn new(scene: &Scene, mechanics: Mechanics) -> Result<Self, Error> {
+        let engine = scene.settings.engine;
+        Self::with(scene, mechanics, |bodies, pairs, rigid| {
+            Condensed::with_engine(engine, bodies, pairs, rigid)
+        })
+    }
+
+    /// Bodies for the one state of a scene without history, in single precision where that does (C32).
+    fn of_one_state(scene: &Scene, mechanics: Mechanics) -> Result<Self, Error> {
+        match scene.settings.engine {
+            Engine::Faer => Self::with(scene, mechanics, Condensed::rounded),
+            Engine::Mumps => Self::new(scene, mechanics),
+        }
+    }
+
+    fn with(
+        scene: &Scene,
+        mechanics: Mechanics,
+        condense: impl FnOnce(&[Body], &[ContactPair], &[RigidBody]) -> Result<Condensed, Error>,
+    ) -> Result<Self, Error> {
         let Mechanics {
             bodies,
             contacts: pairs,
@@ -86,7 +108,7 @@ impl Setup {
             notes,
             ..
         } = mechanics;
-        let condensed = Condensed::with_rigid(&bodies, &pairs, &rigid_bodies)?;
+        let condensed = condense(&bodies, &pairs, &rigid_bodies)?;
         let geometry = SceneGeometry::new(&bodies, &pairs, condensed.surface())?;
         let acting = Acting {
             openings: pairs.iter().map(|pair| pair.gap).collect(),
@@ -105,6 +127,28 @@ impl Setup {
             geometry: Arc::new(geometry),
             acting,
         })
+    }
+
+    /// Solves the one state of a scene without history.
+    fn solve(mut self) -> Result<Solution, Error> {
+        let mut spent = 0.0;
+        if self.condensed.is_rounded() {
+            let solved = self.solve_rounded(&mut spent)?;
+            match solved {
+                Ok((outcome, displacements)) => {
+                    let mut solution = self.measure(outcome, displacements)?;
+                    solution.recovery_seconds += spent;
+                    return Ok(solution);
+                }
+                Err(sign) => {
+                    self.condensed = self.condensed.in_double(&self.bodies, &self.pairs, sign)?;
+                }
+            }
+        }
+        let outcome = alternation::solve(self.condensed.problem(), &self.settings)?;
+        let mut solution = self.recover(outcome)?;
+        solution.recovery_seconds += spent;
+        Ok(solution)
     }
 
     /// Recovers the bodies of a solved problem, and measures them.
@@ -142,6 +186,7 @@ impl Setup {
             recovery_seconds,
             step: None,
             extremes: OnceLock::new(),
+            precise: OnceLock::new(),
         })
     }
 
@@ -186,6 +231,8 @@ pub struct Solution {
     step: Option<SolvedStep>,
     /// Of every body, once somebody asks.
     extremes: OnceLock<Vec<Extremes>>,
+    /// The bodies in double precision, where they are not and somebody asks.
+    precise: OnceLock<Condensed>,
 }
 
 /// Stress of a body in pascal, in the order xx, yy, zz, yz, xz, xy; z is the direction around the
@@ -215,6 +262,34 @@ impl Solution {
     #[must_use]
     pub fn condensed(&self) -> &Condensed {
         &self.setup.condensed
+    }
+
+    /// The same under any reactions, not only those of this state: in double precision, factorised again where they
+    /// were solved for with a factor in single precision.
+    ///
+    /// # Errors
+    ///
+    /// A factor that is larger than the memory.
+    pub fn precise(&self) -> Result<&Condensed, Error> {
+        let Setup {
+            bodies,
+            pairs,
+            condensed,
+            ..
+        } = &self.setup;
+        if !condensed.is_rounded() {
+            return Ok(condensed);
+        }
+        if let Some(known) = self.precise.get() {
+            return Ok(known);
+        }
+        let precise = condensed.clone().in_double(bodies, pairs, None)?;
+        Ok(self.precise.get_or_init(|| precise))
+    }
+
+    /// The bodies in double precision if they were asked for, else as they were solved for.
+    fn most_precise(&self) -> &Condensed {
+        self.precise.get().unwrap_or(&self.setup.condensed)
     }
 
     /// Reactions, the judge's verdict, history and work of the outer loop.
@@ -347,12 +422,16 @@ impl Solution {
             fits: &self.measured.fits,
             stages: &StageWork {
                 factorisations: work.factorisations,
+                single_factors: work.single_factors,
+                corrections: work.corrections,
+                fallback: work.fallback,
                 assembly: work.assembly_seconds,
                 ordering: work.ordering_seconds,
                 factorisation: work.factorisation_seconds,
                 condensation: work.condensation_seconds,
                 recovery: self.recovery_seconds,
             },
+            ranks: &condensed.ranks(),
             origins: self.step.as_ref().map_or(&sides, |step| step.origins()),
             step: self.step.as_ref().map(|step| step.record()),
             notes: &[],
@@ -383,24 +462,6 @@ impl Solution {
             .collect()
     }
 
-    /// Estimated error of the stress of all bodies relative to the stress, both in the energy
-    /// norm (B9); 0 where there is no stress.
-    #[must_use]
-    pub fn stress_error_estimate(&self) -> f64 {
-        let solved = self.setup.bodies.iter().zip(&self.displacements);
-        let (mut error, mut energy) = (0.0, 0.0);
-        for (body, displacement) in solved {
-            let found = body::stress_recovery(body, displacement);
-            error += found.error;
-            energy += found.energy;
-        }
-        if energy > 0.0 {
-            (error / energy).sqrt()
-        } else {
-            0.0
-        }
-    }
-
     /// Solves the contacts of a certified solution again from this many other starts, estimates how
     /// much friction the alternation takes, and tells whether bodies jump on the way here; none for a
     /// solution without certificate.
@@ -412,7 +473,7 @@ impl Solution {
         let Some(continuity) = self.continuity()? else {
             return Ok(None);
         };
-        let problem = self.setup.condensed.problem();
+        let problem = self.precise()?.problem();
         let settings = &self.setup.settings;
         let others = trust::other_starts(problem, settings, &self.outcome, starts)?;
         let contraction = trust::contraction(problem, &self.outcome);
@@ -430,7 +491,7 @@ impl Solution {
         if self.status() != Status::Certified {
             return Ok(None);
         }
-        let problem = self.setup.condensed.problem();
+        let problem = self.precise()?.problem();
         let start = match &self.step {
             None => &trust::Earlier::rest(problem),
             Some(step) => step.start(),

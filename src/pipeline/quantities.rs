@@ -46,7 +46,11 @@ pub(super) struct Quantities<D>(pub(super) Vec<(String, D)>);
 
 impl Quantities<Drive> {
     pub(super) fn new(bodies: &[Body], pairs: &[ContactPair], rigid: &[RigidBody]) -> Self {
-        let all: Vec<usize> = (0..pairs.len()).collect();
+        let cut = |at: &usize| {
+            let mut bolts = rigid.iter().filter(|body| body.cut.is_some());
+            bolts.any(|bolt| bolt.pairs.contains(at))
+        };
+        let all: Vec<usize> = (0..pairs.len()).filter(|at| !cut(at)).collect();
         let mut known = vec![
             ("friction".to_owned(), Drive::Friction(all.clone())),
             ("gap".to_owned(), Drive::Gap(all)),
@@ -54,7 +58,7 @@ impl Quantities<Drive> {
         let driven = driven(bodies, rigid).into_iter();
         known.extend(driven.map(|(place, driven)| (place, Drive::Factor(driven))));
         let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
-        for (at, pair) in pairs.iter().enumerate() {
+        for (at, pair) in pairs.iter().enumerate().filter(|(at, _)| !cut(at)) {
             known.push((
                 format!("contacts[{at}].friction"),
                 Drive::Friction(vec![at]),

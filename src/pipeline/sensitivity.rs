@@ -12,6 +12,8 @@ struct Parameter {
     name: String,
     drive: Drive,
     body: Option<BodyRate>,
+    /// Motion of the other side per contact, in metre; none at all where no rigid body is given one.
+    sides: Vec<[f64; 3]>,
     moves_obstacle: bool,
 }
 
@@ -74,12 +76,17 @@ impl Solution {
     fn all(&self, wanted: impl Fn(&str) -> bool) -> Result<Option<Vec<Sensitivity>>, Error> {
         self.with_parts(|parts| {
             self.each_rate(wanted, |parameter, sides| {
-                let moved = sides.map(|rate| Moved {
-                    displacements: match self.slip_needs_bodies(parameter) {
-                        true => self.recovered(parameter, &rate),
-                        false => Vec::new(),
+                let moved = sides.map(|rate| match self.slip_needs_bodies(parameter) {
+                    true => Moved {
+                        displacements: self.recovered(parameter, &rate),
+                        sides: self.sides_moved(parameter, &rate),
+                        rate,
                     },
-                    rate,
+                    false => Moved {
+                        displacements: Vec::new(),
+                        sides: Vec::new(),
+                        rate,
+                    },
                 });
                 Sensitivity {
                     parameter: parameter.name.clone(),
@@ -108,8 +115,23 @@ impl Solution {
     }
 
     fn recovered(&self, parameter: &Parameter, rate: &Rate) -> Vec<Vec<f64>> {
-        let condensed = &self.setup.condensed;
+        let condensed = self.most_precise();
         condensed.recover_rate(parameter.body.as_ref(), &rate.reaction, &rate.motion)
+    }
+
+    /// How the other side of every contact moves with its rigid body; none at all where there is none.
+    fn sides_moved(&self, parameter: &Parameter, rate: &Rate) -> Vec<[f64; 3]> {
+        let found = self.setup.condensed.found_sides(&rate.motion);
+        if found.is_empty() || parameter.sides.is_empty() {
+            return if found.is_empty() {
+                parameter.sides.clone()
+            } else {
+                found
+            };
+        }
+        let both = found.iter().zip(&parameter.sides);
+        both.map(|(a, b)| std::array::from_fn(|k| a[k] + b[k]))
+            .collect()
     }
 
     /// Whether the contact problem does not tell how contacts slide: those without friction hold no tangents, and
@@ -140,7 +162,7 @@ impl Solution {
         if self.status() != Status::Certified {
             return Ok(None);
         }
-        let problem = self.setup.condensed.problem();
+        let problem = self.precise()?.problem();
         let Some(mut laws) = Linearised::new(problem, &self.outcome)? else {
             return Ok(None);
         };
@@ -157,28 +179,20 @@ impl Solution {
         let mut all = Vec::new();
         let quantities = Quantities::new(bodies, pairs, self.setup.condensed.rigid_bodies());
         for (name, quantity) in quantities.all().filter(|(name, _)| wanted(name)) {
-            if let Some((drive, body)) = self.drive(quantity)? {
-                let name = name.to_owned();
-                let moves_obstacle = matches!(quantity, Quantity::Obstacle(..));
-                all.push(Parameter {
-                    name,
-                    drive,
-                    body,
-                    moves_obstacle,
-                });
-            }
+            all.extend(self.parameter(name, quantity)?);
         }
         for (index, body) in bodies.iter().enumerate() {
             let name = format!("bodies[{index}].young");
             if !wanted(&name) {
                 continue;
             }
-            let condensed = &self.setup.condensed;
+            let condensed = self.most_precise();
             let rate = condensed.rate_of_young(index, body, &self.displacements[index]);
             all.push(Parameter {
                 name,
                 drive: self.driven_by(&rate),
                 body: Some(rate),
+                sides: Vec::new(),
                 moves_obstacle: false,
             });
         }
@@ -186,10 +200,17 @@ impl Solution {
     }
 
     /// What a unit of a quantity changes; none of friction where contacts have no tangent for it.
-    fn drive(&self, quantity: &Quantity) -> Result<Option<(Drive, Option<BodyRate>)>, Error> {
-        let condensed = &self.setup.condensed;
+    fn parameter(&self, name: &str, quantity: &Quantity) -> Result<Option<Parameter>, Error> {
+        let condensed = self.most_precise();
         let (problem, nodes) = (condensed.problem(), &condensed.surface().nodes);
-        let mut drive = Drive::none(problem);
+        let mut parameter = Parameter {
+            name: name.to_owned(),
+            drive: Drive::none(problem),
+            body: None,
+            sides: Vec::new(),
+            moves_obstacle: matches!(quantity, Quantity::Obstacle(..)),
+        };
+        let drive = &mut parameter.drive;
         let blocks = nodes.iter().zip(problem.blocks());
         match quantity {
             Quantity::Friction(pairs) => {
@@ -212,17 +233,22 @@ impl Solution {
             Quantity::Obstacle(pair, axis) => {
                 drive.beyond = condensed.rate_of_obstacle(*pair, *axis);
             }
-            Quantity::Factor(Driven::Rigid { .. }) => return Ok(None),
+            Quantity::Factor(Driven::Rigid { body, component }) => {
+                let rate = condensed.rate_of_rigid(*body, *component);
+                (drive.beyond, drive.load) = (rate.beyond, rate.load);
+                parameter.sides = rate.sides;
+            }
             Quantity::Factor(driven) => {
                 let rate = condensed.rate_of(&self.setup.stated, *driven)?;
-                return Ok(Some((self.driven_by(&rate), Some(rate))));
+                parameter.drive = self.driven_by(&rate);
+                parameter.body = Some(rate);
             }
         }
-        Ok(Some((drive, None)))
+        Ok(Some(parameter))
     }
 
     fn driven_by(&self, rate: &BodyRate) -> Drive {
-        let condensed = &self.setup.condensed;
+        let condensed = self.most_precise();
         let (beyond, load) = condensed.driven_by(rate);
         Drive {
             beyond,

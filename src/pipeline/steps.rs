@@ -6,9 +6,9 @@ use super::{Setup, Solution};
 use crate::alternation::Status;
 use crate::error::{Error, check_length};
 use crate::kkt::Ledger;
+use crate::report;
 use crate::scene::{Exact, Fingerprint, LoadHistory, SavedState, Scene, exact, plain};
 use crate::trust::Earlier;
-use crate::{alternation, report};
 
 /// Solves a scene state by state and shows each to `each`; ends after the last instant, or with the
 /// first state that is not certified, and returns that state.
@@ -59,17 +59,16 @@ pub fn solve_steps(
         rigid => Fingerprint::of(&(&mechanics.bodies, &mechanics.contacts, rigid)),
     };
     let history = std::mem::take(&mut mechanics.history);
-    let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let Some(&last) = history.instants().last() else {
         if from.is_some() {
             return Err(at_scene(not_of_this_scene("a state", "a scene with steps")));
         }
-        let problem = setup.condensed.problem();
-        let outcome = alternation::solve(problem, &setup.settings).map_err(at_scene)?;
-        let solution = setup.recover(outcome)?;
+        let setup = Setup::of_one_state(scene, mechanics).map_err(at_scene)?;
+        let solution = setup.solve().map_err(at_scene)?;
         each(&solution)?;
         return Ok(solution);
     };
+    let setup = Setup::new(scene, mechanics).map_err(at_scene)?;
     let mut past = Past {
         bodies,
         state: State::at_rest(&setup),
@@ -155,7 +154,12 @@ impl Past {
         let problem = course.setup.condensed.problem();
         check_length("state.reaction", problem.unknowns(), saved.reaction.len())?;
         check_length("state.slip", problem.unknowns(), saved.slip.len())?;
-        check_length("state.motion", problem.free_modes(), saved.motion.len())?;
+        let rigid = course.setup.condensed.rigid_bodies().len();
+        let locked: Vec<Option<f64>> = match saved.locked.is_empty() {
+            true => vec![None; rigid],
+            false => saved.locked.iter().map(|s| s.map(|s| s.0)).collect(),
+        };
+        check_length("state.locked", rigid, locked.len())?;
         let bodies = &course.setup.bodies;
         check_length(
             "state.displacements",
@@ -177,7 +181,7 @@ impl Past {
         let state = course.state(
             saved.at.0,
             reaction,
-            motion,
+            (motion, &locked),
             plain(&saved.slip),
             &displacements,
         )?;
@@ -230,6 +234,7 @@ impl Solution {
     #[must_use]
     pub fn saved_state(&self) -> Option<SavedState> {
         let step = self.step.as_ref()?;
+        let locked = self.setup.condensed.locked();
         Some(SavedState {
             bodies: step.bodies,
             history: step.history,
@@ -237,6 +242,10 @@ impl Solution {
             at: Exact(step.at),
             reaction: exact(&self.outcome.reaction),
             motion: exact(&self.outcome.motion),
+            locked: match locked.iter().any(Option::is_some) {
+                true => locked.iter().map(|s| s.map(Exact)).collect(),
+                false => Vec::new(),
+            },
             slip: exact(step.state.slip()),
             displacements: self.displacements.iter().map(|u| exact(u)).collect(),
             ledger: exact(&step.total.entries()),

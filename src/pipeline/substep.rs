@@ -7,7 +7,7 @@ use crate::alternation;
 use crate::alternation::{Outcome, Status};
 use crate::condensation::Superposition;
 use crate::contact::ContactSurface;
-use crate::error::Error;
+use crate::error::{Error, check_length};
 use crate::kkt::{Account, ContactStep, Ledger, relative_displacement};
 use crate::problem::ContactProblem;
 use crate::scene::LoadHistory;
@@ -24,6 +24,7 @@ pub(super) struct Course<'a> {
 #[derive(Clone, Debug)]
 pub(super) struct State {
     reaction: Vec<f64>,
+    /// Per mode that is free from here on, in metre.
     motion: Vec<f64>,
     /// Per contact unknown since the start of the history, in metre.
     slip: Vec<f64>,
@@ -33,6 +34,8 @@ pub(super) struct State {
     others: Vec<[f64; 3]>,
     /// Initial gap per contact, in metre.
     gaps: Vec<f64>,
+    /// Shortening per rigid body at which its cut is locked from here on, in metre.
+    locked: Vec<Option<f64>>,
     /// None at rest.
     account: Option<Arc<Account>>,
 }
@@ -60,11 +63,17 @@ impl<'a> Course<'a> {
         })
     }
 
-    /// Puts the bodies under what acts at an instant, with the slip so far; returns the motion of
-    /// the obstacles.
-    fn act(&mut self, at: f64, slip: &[f64]) -> Result<Vec<[f64; 3]>, Error> {
+    /// Puts the bodies under what acts at an instant, with the slip so far and what is locked; returns the motion
+    /// of the obstacles.
+    fn act(
+        &mut self,
+        at: f64,
+        slip: &[f64],
+        locked: &[Option<f64>],
+    ) -> Result<Vec<[f64; 3]>, Error> {
         let (factors, obstacles) = (self.history.factors(at), self.history.obstacles(at));
         let condensed = &mut self.setup.condensed;
+        condensed.lock(locked)?;
         if let Some(openings) = self.history.openings(at) {
             condensed.open(&openings)?;
             self.setup.acting.openings = openings;
@@ -76,17 +85,20 @@ impl<'a> Course<'a> {
         Ok(obstacles)
     }
 
-    /// A state that was solved for before.
+    /// A state that was solved for before, with these cuts locked.
     pub(super) fn state(
         &mut self,
         at: f64,
         reaction: Vec<f64>,
-        motion: Vec<f64>,
+        (motion, locked): (Vec<f64>, &[Option<f64>]),
         slip: Vec<f64>,
         displacements: &[Vec<f64>],
     ) -> Result<State, Error> {
-        let obstacles = self.act(at, &slip)?;
+        let obstacles = self.act(at, &slip, locked)?;
+        let free = self.setup.condensed.problem().free_modes();
+        check_length("state.motion", free, motion.len())?;
         let others = self.setup.condensed.other_sides(&obstacles, &motion);
+        let (locked, motion) = self.setup.condensed.locks_from(at, &motion);
         let account = Account::new(&self.setup.body_states(&reaction, displacements))?;
         Ok(State {
             relative: self.setup.relative(displacements, &others),
@@ -95,13 +107,14 @@ impl<'a> Course<'a> {
             motion,
             slip,
             others,
+            locked,
             gaps: self.setup.condensed.problem().initial_gap().to_vec(),
         })
     }
 
     /// Solves the state at an instant from an earlier one; the bodies stay under what acts then.
     pub(super) fn solve(&mut self, from: &State, at: f64) -> Result<Reached, Error> {
-        let obstacles = self.act(at, &from.slip)?;
+        let obstacles = self.act(at, &from.slip, &from.locked)?;
         let settings = &self.setup.settings;
         let problem = self.setup.condensed.problem();
         let outcome = match from.account {
@@ -130,9 +143,11 @@ impl<'a> Course<'a> {
                 assembles: from.account.is_none(),
             },
         )?;
+        let (locked, motion) = condensed.locks_from(at, &outcome.motion);
         let state = State {
             reaction: outcome.reaction.clone(),
-            motion: outcome.motion.clone(),
+            motion,
+            locked,
             slip: condensed.slip(displacement, &from.slip),
             relative: setup.relative(&displacements, &others),
             others,
@@ -157,6 +172,7 @@ impl State {
         Self {
             reaction: vec![0.0; problem.unknowns()],
             motion: vec![0.0; problem.free_modes()],
+            locked: setup.condensed.locked().to_vec(),
             slip: vec![0.0; problem.unknowns()],
             relative: vec![[0.0; 3]; problem.contacts()],
             others: vec![[0.0; 3]; problem.contacts()],

@@ -84,6 +84,19 @@ impl Total {
         }
     }
 
+    /// The same of other meshes: a displacement stays that of the place where this one has its node.
+    pub(super) fn kept(self, solution: &Solution) -> Result<Self, Error> {
+        let (found, node) = self.node(solution)?;
+        Ok(match self {
+            Self::Displacement { axis, body, .. } => Self::Displacement {
+                axis,
+                body,
+                at: solution.bodies()[found].mesh.nodes[node],
+            },
+            other => other,
+        })
+    }
+
     /// Body and node of a displacement.
     fn node(&self, solution: &Solution) -> Result<(usize, usize), Error> {
         let Self::Displacement { axis, body, at } = self else {

@@ -278,10 +278,14 @@ impl<O: Compliance> ContactProblem<O> {
     /// # Errors
     ///
     /// [`Error::Length`] if the modes are not of the problem's unknowns.
-    pub fn float(mut self, floating: Floating) -> Result<Self, Error> {
+    pub fn float(self, floating: Floating) -> Result<Self, Error> {
         check_length("floating.modes", self.unknowns(), floating.modes().nrows())?;
-        self.floating = Some(floating);
-        Ok(self)
+        Ok(self.floating_as(Some(floating)))
+    }
+
+    /// The same problem with these free modes of its unknowns, or with none.
+    pub(crate) fn floating_as(self, floating: Option<Floating>) -> Self {
+        Self { floating, ..self }
     }
 
     /// Number of contacts.

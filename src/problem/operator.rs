@@ -11,6 +11,8 @@ use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::Llt;
 use faer::linalg::triangular_inverse::invert_lower_triangular;
+use faer::traits::ComplexField;
+use faer::traits::math_utils::one;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par, Side, get_global_parallelism};
 
 use super::Compliance;
@@ -36,6 +38,7 @@ const SHIFT: f64 = 1e-6;
 #[derive(Clone, Debug)]
 pub struct Operator {
     compliance: Mat<f64>,
+    /// `L_cc` of (C2), from which S comes with the digits that G has lost where bodies are slender.
     factor: Option<Mat<f64>>,
     stiffness: OnceLock<Option<Mat<f64>>>,
 }
@@ -101,11 +104,7 @@ impl Operator {
                 });
             }
         }
-        Ok(Self {
-            compliance,
-            factor: None,
-            stiffness: OnceLock::new(),
-        })
+        Ok(Self::of_body(compliance, None))
     }
 
     /// Refuses a G of negative energy: a reaction `t` with `½ t · G t < 0`.
@@ -136,12 +135,13 @@ impl Operator {
         })
     }
 
-    /// Takes the trailing block `L_cc` of a Cholesky factor (C2); its upper triangle is not read.
+    /// Takes G of a body as its factor gives it, symmetric to the last bit and definite, and `L_cc` of that factor
+    /// (C2) if it has one.
     #[must_use]
-    pub(crate) fn from_factor(factor: Mat<f64>) -> Self {
+    pub(crate) fn of_body(compliance: Mat<f64>, factor: Option<Mat<f64>>) -> Self {
         Self {
-            compliance: inverse_of_product(factor.as_ref()),
-            factor: Some(factor),
+            compliance,
+            factor,
             stiffness: OnceLock::new(),
         }
     }
@@ -172,14 +172,12 @@ impl Operator {
     fn form_stiffness(&self) -> Option<Mat<f64>> {
         if let Some(factor) = &self.factor {
             return Some(symmetric_product(
-                factor.as_ref(),
-                BlockStructure::TriangularLower,
-                factor.transpose(),
-                BlockStructure::TriangularUpper,
+                (factor.as_ref(), BlockStructure::TriangularLower),
+                (factor.transpose(), BlockStructure::TriangularUpper),
             ));
         }
         let cholesky = self.cholesky()?;
-        Some(inverse_of_product(cholesky.L()))
+        Some(inverse_of_product(cholesky.L().to_owned()))
     }
 
     /// Factor of G, or of `G + ε 1` where G is numerically singular.
@@ -268,25 +266,23 @@ fn check_symmetric(compliance: &Mat<f64>, largest: f64) -> Result<(), Error> {
     })
 }
 
-/// `(L Lᵀ)⁻¹ = L⁻ᵀ L⁻¹` (C2); the upper triangle of L is not read.
-fn inverse_of_product(lower: MatRef<'_, f64>) -> Mat<f64> {
-    let mut inverse = Mat::zeros(lower.nrows(), lower.nrows());
-    invert_lower_triangular(inverse.as_mut(), lower, get_global_parallelism());
+/// `(L Lᵀ)⁻¹ = L⁻ᵀ L⁻¹` (C2), both triangles; the upper triangle of L is not read.
+pub(crate) fn inverse_of_product<T: ComplexField + Copy>(lower: Mat<T>) -> Mat<T> {
+    let size = lower.nrows();
+    let mut inverse = Mat::zeros(size, size);
+    invert_lower_triangular(inverse.as_mut(), lower.as_ref(), get_global_parallelism());
+    drop(lower);
     symmetric_product(
-        inverse.transpose(),
-        BlockStructure::TriangularUpper,
-        inverse.as_ref(),
-        BlockStructure::TriangularLower,
+        (inverse.transpose(), BlockStructure::TriangularUpper),
+        (inverse.as_ref(), BlockStructure::TriangularLower),
     )
 }
 
 /// Product of a triangular matrix and its transpose, half computed and half mirrored.
-fn symmetric_product(
-    left: MatRef<'_, f64>,
-    left_structure: BlockStructure,
-    right: MatRef<'_, f64>,
-    right_structure: BlockStructure,
-) -> Mat<f64> {
+fn symmetric_product<T: ComplexField + Copy>(
+    (left, of_left): (MatRef<'_, T>, BlockStructure),
+    (right, of_right): (MatRef<'_, T>, BlockStructure),
+) -> Mat<T> {
     let size = left.nrows();
     let mut product = Mat::zeros(size, size);
     triangular::matmul(
@@ -294,10 +290,10 @@ fn symmetric_product(
         BlockStructure::TriangularLower,
         Accum::Replace,
         left,
-        left_structure,
+        of_left,
         right,
-        right_structure,
-        1.0,
+        of_right,
+        one::<T>(),
         get_global_parallelism(),
     );
     for j in 0..size {
@@ -317,7 +313,7 @@ mod tests {
     #[test]
     fn compliance_and_stiffness_of_a_factor_are_inverse() {
         let factor = mat![[2.0, 9.0, 9.0], [1.0, 3.0, 9.0], [-1.0, 0.5, 1.5]];
-        let operator = Operator::from_factor(factor);
+        let operator = Operator::of_body(inverse_of_product(factor.clone()), Some(factor));
         let product = operator.compliance() * operator.stiffness().unwrap();
         assert!((product - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
         // S = L Lᵀ: row 2 of L is (1, 3, 0), so S_11 = 10.

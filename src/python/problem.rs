@@ -133,12 +133,10 @@ impl Problem {
         let seconds = time_limit.map(Duration::try_from_secs_f64).transpose();
         let time_limit = seconds
             .map_err(|_| Error::new_err("time_limit is not accepted; expected seconds >= 0"))?;
-        let mut settings = Settings {
-            tolerance: tolerance.unwrap_or(default.tolerance),
-            max_sweeps: max_sweeps.unwrap_or(default.max_sweeps),
-            time_limit,
-            interrupt: None,
-        };
+        let mut settings = default
+            .with_tolerance(tolerance.unwrap_or(default.tolerance))
+            .with_max_sweeps(max_sweeps.unwrap_or(default.max_sweeps));
+        settings.time_limit = time_limit;
         let near = near.map(|near| near.outcome.clone());
         let outcome = watched(py, &Flag::take(), |interrupt| {
             settings.interrupt = Some(interrupt);

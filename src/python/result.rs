@@ -148,8 +148,9 @@ impl Solved {
 
     /// G, û, gaps, friction and frames of the contacts.
     #[getter]
-    fn problem(&self) -> Problem {
-        Problem::of_scene(self.solution.condensed(), self.report.size.dimension)
+    fn problem(&self) -> PyResult<Problem> {
+        let condensed = self.solution.precise().map_err(refused)?;
+        Ok(Problem::of_scene(condensed, self.report.size.dimension))
     }
 
     /// Names of the bodies.

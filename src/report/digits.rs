@@ -15,7 +15,9 @@ pub(super) fn number(value: f64) -> String {
     if value == 0.0 {
         "0".into()
     } else if (1e-3..1e5).contains(&size) {
-        let decimals = (5 - size.log10().floor() as i32).max(0) as usize;
+        // Of the six digits themselves: 9.9999999 is 10.
+        let rounded: f64 = format!("{size:.5e}").parse().unwrap_or(size);
+        let decimals = (5 - rounded.log10().floor() as i32).max(0) as usize;
         format!("{value:.decimals$}")
     } else {
         format!("{value:.5e}")

@@ -17,17 +17,19 @@
 //! | `step` | of a history: number, instant, values of the tables, ledger of the step and since the start, what halving it changed |
 //! | `totals` | counts of open, stick and slip, resultants, contact area, slip area, peak pressure; the same per contact pair, and what its sides exchange |
 //! | `rigid_bodies` | of each: motion of the reference point, contact force and moment there, what is given, what is left |
+//! | `bolts` | of each: force across its cut, shortening, whether that is held |
 //! | `accuracy` | with `--accuracy`: a total extrapolated over a family of meshes, its error, rate and levels |
 //! | `found` | of `dpana find`: the parameter, its value, the total there and its derivative |
 //! | `sensitivity` | with `--sensitivity`: derivatives of the totals with respect to friction, gaps, loads, supports, obstacles, moduli |
 //! | `contacts` | per node: position, normal, state, gap, slip, area, force, pressure, friction traction |
-//! | `work`, `history` | factorisations, sweeps, cone iterations, Newton steps, seconds per stage; the same sweep by sweep |
+//! | `work`, `history` | factorisations, those in single precision and the corrections they took, or why it was given up; sweeps, cone iterations, Newton steps, seconds per stage, memory per rank; the same sweep by sweep |
 //! | `trust` | with `--starts`: the states that other starts led to, the alternation's contraction, whether bodies jump on the way here |
-//! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress |
+//! | `quality` | oscillation of the contact pressure; with `--quality` the estimated error of the stress, with `--bound` a bound of it |
 //! | `size`, `notes` | nodes, cells, contacts; nodes left out of the contact, contact at the rim |
 
 mod accuracy;
 mod base64;
+mod bolt;
 mod certificate;
 mod contacts;
 mod digits;
@@ -68,12 +70,15 @@ mod totals;
 mod trust;
 #[cfg(feature = "cli")]
 mod verification;
+#[cfg(feature = "cli")]
+mod verification_page;
 pub mod vtu;
 mod work;
 
 use serde::Serialize;
 
 pub use accuracy::{Accuracy, AccuracyLevel};
+pub use bolt::ReportedBolt;
 pub(crate) use certificate::ReportedDefect;
 pub use certificate::{ReportedBalance, ReportedCertificate, ReportedWorst};
 pub use contacts::{Contact, ReportedContactState};
@@ -116,11 +121,11 @@ pub use totals::{PairTotals, ReportedCoupling, Rounded, Totals};
 pub use trust::{Continuity, Trust};
 #[cfg(feature = "cli")]
 pub(crate) use verification::{Criterion, Rung, Verification, VerifiedQuantity, VerifiedScene};
-pub use work::{ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
+pub use work::{ReportedRank, ReportedSeconds, ReportedSweep, ReportedWork, StageWork};
 
 use crate::alternation::Outcome;
 use crate::body::Body;
-use crate::condensation::PartMotion;
+use crate::condensation::{PartMotion, RankMemory};
 use crate::contact::{ContactPair, ContactSurface};
 use crate::error::{Error, check_length};
 use crate::problem::ContactProblem;
@@ -170,6 +175,9 @@ pub struct Report {
     /// How every rigid body moved and what acts on it; absent where there is none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rigid_bodies: Vec<ReportedRigidBody>,
+    /// What every bolt under preload carries; absent where there is none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub bolts: Vec<ReportedBolt>,
     /// How every rigid group has moved, and what holds it; absent where there is none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub rigid_groups: Vec<ReportedRigidGroup>,
@@ -278,6 +286,8 @@ pub struct ReportParts<'a> {
     pub fits: &'a [kkt::PairFit],
     /// What the stages around the outer loop took.
     pub stages: &'a StageWork,
+    /// Memory of every rank for the factors; empty where one process factorises.
+    pub ranks: &'a [RankMemory],
     /// Relative displacement of every contact, in global axes, from which its slip counts, in
     /// metre; empty where it counts from the bodies before loading.
     pub origins: &'a [[f64; 3]],
@@ -322,6 +332,7 @@ impl Report {
             extremes: ReportedExtremes::new(parts),
             supports: extremes::support_forces(parts),
             rigid_bodies: ReportedRigidBody::all(&parts.rigid, parts.dimension()),
+            bolts: ReportedBolt::all(&parts.rigid),
             rigid_groups: rigid_groups::rigid_groups(parts),
             quality: Quality::new(parts, &contacts),
             work: ReportedWork::new(parts),

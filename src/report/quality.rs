@@ -33,6 +33,8 @@ pub struct Quality {
     /// Estimated error of the stress of all bodies relative to the stress, both in the energy norm
     /// (B9); `null` unless asked for.
     pub stress_error_estimate: Option<f64>,
+    /// A bound of the same error (B18), of bodies under the tractions on their contact; `null` unless asked for.
+    pub stress_error_bound: Option<f64>,
 }
 
 impl Quality {
@@ -41,6 +43,7 @@ impl Quality {
         Self {
             oscillation: oscillation(parts, contacts),
             stress_error_estimate: None,
+            stress_error_bound: None,
         }
     }
 }

@@ -17,6 +17,17 @@ pub struct RigidParts<'a> {
     pub balances: &'a [RigidBalance],
 }
 
+impl<'a> RigidParts<'a> {
+    /// Each with its motion and equilibrium.
+    pub(super) fn all(
+        &self,
+    ) -> impl Iterator<Item = (&'a RigidBody, &'a RigidMotion, &'a RigidBalance)> {
+        let moved = self.bodies.iter().zip(self.motions);
+        let all = moved.zip(self.balances);
+        all.map(|((body, motion), balance)| (body, motion, balance))
+    }
+}
+
 /// A rigid body; vectors in global axes with the bodies' dimension.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -41,21 +52,20 @@ pub struct ReportedRigidBody {
 
 impl ReportedRigidBody {
     pub(super) fn all(parts: &RigidParts<'_>, dimension: usize) -> Vec<Self> {
-        let bodies = parts.bodies.iter().zip(parts.motions).zip(parts.balances);
-        let of_body =
-            |((body, motion), balance): ((&RigidBody, &RigidMotion), &RigidBalance)| Self {
-                name: body.name.clone(),
-                reference: in_dimension(body.reference, dimension),
-                displacement: in_dimension(motion.translation, dimension),
-                rotation: match dimension {
-                    2 => vec![motion.rotation[2]],
-                    _ => motion.rotation.to_vec(),
-                },
-                contact: ReportedResultant::new(&balance.contact, dimension),
-                given: ReportedResultant::new(&balance.given, dimension),
-                force_defect: balance.force_defect.into(),
-                moment_defect: balance.moment_defect.into(),
-            };
+        let bodies = parts.all().filter(|(body, ..)| body.cut.is_none());
+        let of_body = |(body, motion, balance): (&RigidBody, &RigidMotion, &RigidBalance)| Self {
+            name: body.name.clone(),
+            reference: in_dimension(body.reference, dimension),
+            displacement: in_dimension(motion.translation, dimension),
+            rotation: match dimension {
+                2 => vec![motion.rotation[2]],
+                _ => motion.rotation.to_vec(),
+            },
+            contact: ReportedResultant::new(&balance.contact, dimension),
+            given: ReportedResultant::new(&balance.given, dimension),
+            force_defect: balance.force_defect.into(),
+            moment_defect: balance.moment_defect.into(),
+        };
         bodies.map(of_body).collect()
     }
 }

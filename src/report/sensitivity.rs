@@ -45,6 +45,8 @@ pub(crate) struct Moved {
     pub(crate) rate: Rate,
     /// Per body and unknown (`node · dimension + axis`), in metre per unit; none where `rate` tells how contacts slide.
     pub(crate) displacements: Vec<Vec<f64>>,
+    /// Of the other side per contact that a rigid body moves, in metre per unit; none at all where none does.
+    pub(crate) sides: Vec<[f64; 3]>,
 }
 
 impl Sensitivity {
@@ -137,7 +139,11 @@ fn slipping(parts: &ReportParts<'_>, moved: &Moved, contact: usize, sign: f64) -
     let rate = match moved.displacements.as_slice() {
         // A vector along the directions of its contact, like a force.
         [] => global_force(node, &moved.rate.beyond[parts.problem.block(contact)]),
-        bodies => relative_displacement(node, bodies, parts.dimension()),
+        bodies => {
+            let own = relative_displacement(node, bodies, parts.dimension());
+            let side = moved.sides.get(contact).copied().unwrap_or_default();
+            [0, 1, 2].map(|k| own[k] - side[k])
+        }
     };
     let rate = across(node.frame[0], rate);
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

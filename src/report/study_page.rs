@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::svg::escaped;
 use super::{Part, ReportedStatus, StudiedRun, Study};
 
-const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:960px;\
+pub(super) const STYLE: &str = "body{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:960px;\
 margin:2em auto;padding:0 1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em}\
 svg{max-width:100%;height:auto}figure{margin:1.5em 0}figcaption{color:#555;font-size:.9em}\
 div.wide{overflow-x:auto}table{border-collapse:collapse;font-size:13px;white-space:nowrap}\
@@ -324,7 +324,8 @@ fn caption(figure: &str) -> &'static str {
     }
 }
 
-fn table(
+/// A table below its title, if it has one; rows that are bad stand out.
+pub(super) fn table(
     page: &mut String,
     title: &str,
     heads: &[String],
@@ -336,9 +337,12 @@ fn table(
             .map(|cell| format!("<{tag}>{}</{tag}>", escaped(cell)));
         cells.collect::<String>()
     };
-    let _ = write!(
+    if !title.is_empty() {
+        let _ = writeln!(page, "<h2>{title}</h2>");
+    }
+    let _ = writeln!(
         page,
-        "<h2>{title}</h2>\n<div class=\"wide\"><table>\n<tr>{}</tr>\n",
+        "<div class=\"wide\"><table>\n<tr>{}</tr>",
         cells("th", heads)
     );
     for (bad, row) in rows {

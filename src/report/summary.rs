@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::digits::{number, size};
 use super::{
     Largest, Report, ReportedBalance, ReportedDefect, ReportedDerivative, ReportedFailure,
-    ReportedShortfall, ReportedStatus,
+    ReportedShortfall, ReportedStatus, ReportedWork,
 };
 
 /// How many contact pairs the summary lists before it only counts them.
@@ -144,6 +144,13 @@ fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
             "                contact force {force}, moment {moment} on it"
         )?;
     }
+    for bolt in &report.bolts {
+        let (name, force, shortening) = (&bolt.name, number(bolt.force), number(bolt.shortening));
+        writeln!(
+            text,
+            "bolt            `{name}` carries {force}, shorter by {shortening}"
+        )?;
+    }
     for support in report.supports.iter().take(LISTED) {
         let (place, force) = (&support.place, vector(&support.force));
         writeln!(text, "support         {force} by {place}")?;
@@ -173,6 +180,9 @@ fn quality(text: &mut String, report: &Report) -> std::fmt::Result {
     }
     if let Some(estimate) = report.quality.stress_error_estimate {
         parts.push(format!("stress is wrong by about {}", percent(estimate)));
+    }
+    if let Some(bound) = report.quality.stress_error_bound {
+        parts.push(format!("stress is wrong by {} at most", percent(bound)));
     }
     match parts.is_empty() {
         true => Ok(()),
@@ -362,12 +372,16 @@ fn work(text: &mut String, report: &Report) -> std::fmt::Result {
     let work = &report.work;
     writeln!(
         text,
-        "work            {}, {}, {}, {}",
+        "work            {}{}, {}, {}, {}",
         counted(work.factorisations, "factorisation"),
+        precision(work),
         counted(work.sweeps, "sweep"),
         counted(work.cone_iterations, "cone iteration"),
         counted(work.newton_steps, "Newton step"),
     )?;
+    if let Some(words) = work.ranks_in_words() {
+        writeln!(text, "ranks           {words}")?;
+    }
     let stages = work.seconds.by_stage();
     let spent: Vec<String> = stages
         .iter()
@@ -376,6 +390,18 @@ fn work(text: &mut String, report: &Report) -> std::fmt::Result {
     let (total, [before, after]) = (work.seconds.total, [&spent[..4], &spent[4..]]);
     writeln!(text, "seconds         {total:.3}: {},", before.join(", "))?;
     writeln!(text, "                {}", after.join(", "))
+}
+
+/// What is to be said of factors in single precision.
+fn precision(work: &ReportedWork) -> String {
+    match (&work.fallback, work.single_factors) {
+        (Some(sign), _) => format!(" (single precision is not enough: {sign})"),
+        (None, 0) => String::new(),
+        (None, _) => format!(
+            " in single precision with {}",
+            counted(work.corrections, "correction")
+        ),
+    }
 }
 
 fn counted(count: usize, what: &str) -> String {
@@ -396,9 +422,10 @@ mod tests {
 
     #[test]
     fn numbers_have_six_digits_in_every_unit() {
-        let found = [0.0, 0.04, 12.5, -99999.4, 1.40536e6, 3.2e-9].map(number);
+        let found = [0.0, 9.999_999_9, 0.04, 12.5, -99999.4, 1.40536e6, 3.2e-9].map(number);
         let expected = [
             "0",
+            "10.0000",
             "0.0400000",
             "12.5000",
             "-99999.4",

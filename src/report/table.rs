@@ -220,6 +220,10 @@ fn totals(report: &Report) -> impl Iterator<Item = (String, Cell)> {
         count("newton_steps", report.work.newton_steps),
         count("factorisations", report.work.factorisations),
     ]);
+    row.extend(report.bolts.iter().flat_map(|bolt| {
+        let of = [("force", bolt.force), ("shortening", bolt.shortening)];
+        of.map(|(what, value)| number(&format!("{what} {}", bolt.name), value))
+    }));
     if let Some(step) = &report.step {
         row.extend([
             number("work_of_loads", step.total.loads),

@@ -24,6 +24,9 @@ pub struct VerifiedScene {
     pub source: &'static str,
     /// What keeps the error from vanishing on ever finer meshes.
     pub floor: &'static str,
+    /// The scene on a coarse mesh, drawn in SVG, where it is plane and a page is wanted.
+    #[serde(skip)]
+    pub picture: Option<String>,
     /// All of its quantities passed.
     pub passed: bool,
     /// Time that it took, in second.
@@ -136,19 +139,23 @@ impl VerifiedQuantity {
         let rate = self
             .rate
             .map_or_else(String::new, |rate| format!("{rate:.2}"));
-        let verdict = match (self.criterion, self.passed) {
-            (_, false) => ": FAIL",
-            (Criterion::Compared, true) => "",
-            (_, true) => ": pass",
-        };
         let (here, exact) = (
             of_finest(|rung| rung.computed),
             of_finest(|rung| rung.exact),
         );
         let mut text = row(self.quantity, &here, &exact, &errors.join(" "), &rate);
-        text.push_str(&self.criterion.words());
-        text.push_str(verdict);
+        text.push_str(&self.verdict());
         text
+    }
+
+    /// The criterion in words, and whether it holds.
+    pub(super) fn verdict(&self) -> String {
+        let verdict = match (self.criterion, self.passed) {
+            (_, false) => ": FAIL",
+            (Criterion::Compared, true) => "",
+            (_, true) => ": pass",
+        };
+        self.criterion.words() + verdict
     }
 }
 
@@ -170,7 +177,7 @@ impl Criterion {
     }
 }
 
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     let digits = value.abs().log10().floor();
     if (-3.0..6.0).contains(&digits) {
         format!("{value:.*}", (6.0 - digits) as usize)
@@ -179,7 +186,7 @@ fn number(value: f64) -> String {
     }
 }
 
-fn size(error: f64) -> String {
+pub(super) fn size(error: f64) -> String {
     if error == 0.0 {
         return "0".to_owned();
     }

@@ -4,12 +4,19 @@ use serde::Serialize;
 
 use super::ReportParts;
 use crate::alternation::SweepRecord;
+use crate::condensation::{Fallback, RankMemory};
 
 /// What the stages around the outer loop took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StageWork {
     /// Factorisations of the body's stiffness.
     pub factorisations: usize,
+    /// Factors that are in single precision.
+    pub single_factors: usize,
+    /// Rounds by which bodies and contacts were set right where factors have few digits.
+    pub corrections: usize,
+    /// Why single precision was given up, where it was.
+    pub fallback: Option<Fallback>,
     /// Seconds of stiffness and loads.
     pub assembly: f64,
     /// Seconds of the fill-reducing ordering.
@@ -28,6 +35,13 @@ pub struct StageWork {
 pub struct ReportedWork {
     /// Factorisations of the body's stiffness.
     pub factorisations: usize,
+    /// Factors that are in single precision.
+    pub single_factors: usize,
+    /// Rounds by which bodies and contacts were set right where factors have few digits.
+    pub corrections: usize,
+    /// Why single precision was given up for double precision; left out where it was not.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fallback: Option<String>,
     /// Gauss–Seidel passes of the prediction.
     pub passes: usize,
     /// Sweeps of the outer loop.
@@ -46,6 +60,19 @@ pub struct ReportedWork {
     pub newton_steps: usize,
     /// Wall time by stage.
     pub seconds: ReportedSeconds,
+    /// Memory of every rank for the factors; left out where one process factorises.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub ranks: Vec<ReportedRank>,
+}
+
+/// Memory of a rank for the factors of all bodies.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ReportedRank {
+    /// As estimated before anything was factorised, in bytes.
+    pub estimated_bytes: f64,
+    /// As it was in the end, in bytes.
+    pub bytes: f64,
 }
 
 /// Wall time by stage in the order of the pipeline, in second.
@@ -107,6 +134,9 @@ impl ReportedWork {
         let (stages, work) = (parts.stages, &parts.outcome.work);
         Self {
             factorisations: stages.factorisations,
+            single_factors: stages.single_factors,
+            corrections: stages.corrections,
+            fallback: stages.fallback.map(|sign| sign.to_string()),
             passes: work.passes,
             sweeps: work.sweeps,
             coulomb_programs: work.coulomb_programs,
@@ -116,6 +146,32 @@ impl ReportedWork {
             cone_iterations: work.cone_iterations,
             newton_steps: work.newton_steps,
             seconds: ReportedSeconds::new(parts),
+            ranks: parts.ranks.iter().map(ReportedRank::from).collect(),
+        }
+    }
+
+    /// Ranks and their memory in words; none where one process factorises.
+    pub(super) fn ranks_in_words(&self) -> Option<String> {
+        let most = |of: fn(&ReportedRank) -> f64| {
+            let all = self.ranks.iter().map(of);
+            1e-6 * all.fold(0.0, f64::max)
+        };
+        let [used, estimated] = [most(|rank| rank.bytes), most(|rank| rank.estimated_bytes)];
+        let all: f64 = self.ranks.iter().map(|rank| 1e-6 * rank.bytes).sum();
+        (!self.ranks.is_empty()).then(|| {
+            format!(
+                "{}: factors of {used:.0} MB on the largest (estimated {estimated:.0}), {all:.0} in all",
+                self.ranks.len()
+            )
+        })
+    }
+}
+
+impl From<&RankMemory> for ReportedRank {
+    fn from(memory: &RankMemory) -> Self {
+        Self {
+            estimated_bytes: memory.estimated,
+            bytes: memory.used,
         }
     }
 }

@@ -5,10 +5,11 @@ use std::path::Path;
 use serde::{Deserialize, Serialize};
 
 use super::field::{finite, is_zero};
+use super::itself::two_sides;
 use super::law::{SceneCompliance, SceneLaw, coefficient};
 use super::rigid_body::Resolved;
-use super::{SceneObstacle, selection, spelling};
-use crate::body::Body;
+use super::{SceneGroup, SceneObstacle, selection, spelling};
+use crate::body::{Body, Facet};
 use crate::contact::{ContactPair, Opposite, PairLaw};
 use crate::error::Error;
 
@@ -16,21 +17,27 @@ use crate::error::Error;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a contact")]
+#[non_exhaustive]
 pub struct SceneContact {
     /// Group of surface facets; it need only contain the true contact. Of two
     /// surfaces the one carries the contacts that has fewer facets on which the other one ends, this one if
     /// they are equal in that; but never one that is more than a hundred times as stiff.
-    pub group: String,
+    pub group: SceneGroup,
     /// Name of the body; may be left out while there is only one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
-    /// The rigid obstacle that the surface may touch; this, `against` or `rigid_body`.
+    /// The rigid obstacle that the surface may touch; this, `against`, `against_itself` or `rigid_body`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub obstacle: Option<SceneObstacle>,
-    /// The other surface that it may touch; this, `obstacle` or `rigid_body`.
+    /// The other surface that it may touch.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<SceneSurface>,
-    /// Name of the rigid body that it may touch; this, `obstacle` or `against`.
+    /// It may touch itself, where facets of the group face each other within this distance, apart or
+    /// in each other, `> 0` in the unit of length, and share no node.
+    #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub against_itself: Option<f64>,
+    /// Name of the rigid body that it may touch.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rigid_body: Option<String>,
     /// Number of the rigid body's surface, from 0; may be left out while it has only one.
@@ -69,7 +76,7 @@ pub struct SceneSurface {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub body: Option<String>,
     /// Group of surface facets.
-    pub group: String,
+    pub group: SceneGroup,
 }
 
 impl SceneContact {
@@ -77,7 +84,7 @@ impl SceneContact {
     #[must_use]
     pub fn on(obstacle: SceneObstacle, group: &str, friction: f64) -> Self {
         Self {
-            group: group.to_owned(),
+            group: group.into(),
             obstacle: Some(obstacle),
             friction: Some(friction),
             ..Self::default()
@@ -89,12 +96,24 @@ impl SceneContact {
     #[must_use]
     pub fn between(own: [&str; 2], other: [&str; 2], friction: f64) -> Self {
         Self {
-            group: own[1].to_owned(),
+            group: own[1].into(),
             body: Some(own[0].to_owned()),
             against: Some(SceneSurface {
                 body: Some(other[0].to_owned()),
-                group: other[1].to_owned(),
+                group: other[1].into(),
             }),
+            friction: Some(friction),
+            ..Self::default()
+        }
+    }
+
+    /// A group of surface facets of the only body, which may touch itself with this friction where facets face each
+    /// other within a distance, in metre.
+    #[must_use]
+    pub fn with_itself(group: &str, distance: f64, friction: f64) -> Self {
+        Self {
+            group: group.into(),
+            against_itself: Some(distance),
             friction: Some(friction),
             ..Self::default()
         }
@@ -104,7 +123,7 @@ impl SceneContact {
     #[must_use]
     pub fn on_rigid(rigid_body: &str, group: &str, friction: f64) -> Self {
         Self {
-            group: group.to_owned(),
+            group: group.into(),
             rigid_body: Some(rigid_body.to_owned()),
             friction: Some(friction),
             ..Self::default()
@@ -143,19 +162,7 @@ impl SceneContact {
     ) -> Result<ContactPair, Error> {
         let body = find_body(&format!("{place}.body"), self.body.as_deref(), bodies)?;
         finite(format!("{place}.gap"), self.gap)?;
-        let mesh = &bodies[body].mesh;
-        let opposite = match (&self.obstacle, &self.against, &self.rigid_body) {
-            (Some(obstacle), None, None) => {
-                let place = format!("{place}.obstacle");
-                Opposite::Obstacle(obstacle.resolve(&place, folder, mesh.dimension)?)
-            }
-            (None, Some(surface), None) => surface.resolve(&format!("{place}.against"), bodies)?,
-            (None, None, Some(name)) => {
-                let of = &rigid[self.rigid_number(place, name, rigid)?];
-                Opposite::Obstacle(of.surface(place, self.surface)?)
-            }
-            _ => return Err(self.not_one_side(place)),
-        };
+        let (facets, opposite) = self.sides(place, folder, (body, bodies), rigid)?;
         if let (None, Some(surface)) = (&self.rigid_body, self.surface) {
             return Err(Error::NotAccepted {
                 place: format!("{place}.surface"),
@@ -167,7 +174,7 @@ impl SceneContact {
         if self.dragged && matches!(opposite, Opposite::Surface { .. }) {
             return Err(Error::NotAccepted {
                 place: format!("{place}.dragged"),
-                found: "true beside `against`".to_owned(),
+                found: "true beside `against` or `against_itself`".to_owned(),
                 accepted: "a contact with `obstacle` or `rigid_body`, along which supports drag the surface"
                     .to_owned(),
             });
@@ -176,7 +183,7 @@ impl SceneContact {
         Ok(ContactPair {
             place: place.to_owned(),
             body,
-            facets: selection::facets(mesh, &format!("{place}.group"), &self.group)?,
+            facets,
             opposite,
             friction,
             law,
@@ -188,6 +195,48 @@ impl SceneContact {
 }
 
 impl SceneContact {
+    /// The facets of the contact and what they may touch.
+    fn sides(
+        &self,
+        place: &str,
+        folder: &Path,
+        (body, bodies): (usize, &[Body]),
+        rigid: &[Resolved],
+    ) -> Result<(Vec<Facet>, Opposite), Error> {
+        let mesh = &bodies[body].mesh;
+        let facets = selection::facets(mesh, &format!("{place}.group"), &self.group)?;
+        let stated = (
+            &self.obstacle,
+            &self.against,
+            &self.rigid_body,
+            self.against_itself,
+        );
+        let opposite = match stated {
+            (Some(obstacle), None, None, None) => {
+                let place = format!("{place}.obstacle");
+                Opposite::Obstacle(obstacle.resolve(&place, folder, mesh.dimension)?)
+            }
+            (None, Some(surface), None, None) => {
+                surface.resolve(&format!("{place}.against"), bodies)?
+            }
+            (None, None, Some(name), None) => {
+                let of = &rigid[self.rigid_number(place, name, rigid)?];
+                Opposite::Obstacle(of.surface(place, self.surface)?)
+            }
+            (None, None, None, Some(distance)) => {
+                let place = format!("{place}.against_itself");
+                let [facets, other] = two_sides(&place, &bodies[body], facets, distance)?;
+                let facing = Opposite::Surface {
+                    body,
+                    facets: other,
+                };
+                return Ok((facets, facing));
+            }
+            _ => return Err(self.not_one_side(place)),
+        };
+        Ok((facets, opposite))
+    }
+
     /// Number of the rigid body that the contact names.
     pub(super) fn rigid_number(
         &self,
@@ -212,6 +261,7 @@ impl SceneContact {
             ("`obstacle`", self.obstacle.is_some()),
             ("`against`", self.against.is_some()),
             ("`rigid_body`", self.rigid_body.is_some()),
+            ("`against_itself`", self.against_itself.is_some()),
         ];
         let stated: Vec<_> = stated
             .iter()
@@ -221,10 +271,11 @@ impl SceneContact {
         Error::NotAccepted {
             place: place.to_owned(),
             found: match stated.as_slice() {
-                [] => "neither `obstacle` nor `against` nor `rigid_body`".to_owned(),
+                [] => "neither `obstacle` nor `against` nor `rigid_body` nor `against_itself`"
+                    .to_owned(),
                 several => format!("both {}", several.join(" and ")),
             },
-            accepted: "one of `obstacle`, `against` and `rigid_body`".to_owned(),
+            accepted: "one of `obstacle`, `against`, `rigid_body` and `against_itself`".to_owned(),
         }
     }
 

@@ -5,9 +5,10 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::bolt;
 use super::{
-    MeshSource, SceneFoundation, SceneLoad, SceneMaterial, ScenePeriodic, SceneRigidGroup,
-    SceneSupport, selection,
+    MeshSource, SceneBolt, SceneFoundation, SceneLoad, SceneMaterial, ScenePeriodic,
+    SceneRigidGroup, SceneSupport, selection,
 };
 use crate::body;
 use crate::body::{Body, Material, Mesh, Model};
@@ -17,6 +18,7 @@ use crate::error::Error;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a body")]
+#[non_exhaustive]
 pub struct SceneBody {
     /// Name for messages and reports.
     #[serde(default = "unnamed")]
@@ -50,6 +52,9 @@ pub struct SceneBody {
     /// Pairs of faces, where the body repeats.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub periodic: Vec<ScenePeriodic>,
+    /// Bolts under preload.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub bolts: Vec<SceneBolt>,
 }
 
 fn unnamed() -> String {
@@ -113,6 +118,7 @@ impl SceneBody {
             foundation: Vec::new(),
             rigid_groups: Vec::new(),
             periodic: Vec::new(),
+            bolts: Vec::new(),
         }
     }
 
@@ -172,15 +178,23 @@ impl SceneBody {
         self
     }
 
-    /// The body in the terms of mechanics, of at most `room` nodes; mesh files are relative to
-    /// `folder`. What was changed is added to `notes`.
+    /// The body with one more bolt under preload.
+    #[must_use]
+    pub fn with_bolt(mut self, bolt: SceneBolt) -> Self {
+        self.bolts.push(bolt);
+        self
+    }
+
+    /// The body of this number in the terms of mechanics, of at most `room` nodes, and its bolts; mesh files are
+    /// relative to `folder`. What was changed is added to `notes`.
     pub(super) fn resolve(
         &self,
-        place: &str,
+        index: usize,
         folder: &Path,
         room: usize,
         notes: &mut Vec<String>,
-    ) -> Result<Body, Error> {
+    ) -> Result<(Body, Vec<bolt::Resolved>), Error> {
+        let place = &format!("bodies[{index}]");
         let of_mesh = format!("{place}.mesh");
         let mut mesh = self.mesh.mesh(&of_mesh, folder, room)?;
         if matches!(self.mesh, MeshSource::File { .. }) {
@@ -193,6 +207,7 @@ impl SceneBody {
         }
         self.join_groups(place, &mut mesh)?;
         let model = self.resolve_model(place, mesh.dimension)?;
+        let bolts = self.resolve_bolts(index, &mut mesh, model)?;
         let (materials, material_of_cell) = self.resolve_materials(place, &mesh, model)?;
         let supports = (self.supports.iter().enumerate())
             .map(|(at, support)| support.resolve(format!("{place}.supports[{at}]"), &mesh, model))
@@ -230,7 +245,26 @@ impl SceneBody {
         };
         body::check(&body)?;
         body::prescribed(&body)?;
-        Ok(body)
+        Ok((body, bolts))
+    }
+
+    /// Cuts the mesh through all bolts, then finds their faces.
+    fn resolve_bolts(
+        &self,
+        index: usize,
+        mesh: &mut Mesh,
+        model: Model,
+    ) -> Result<Vec<bolt::Resolved>, Error> {
+        let bolts = || {
+            let places = (0..).map(|at| format!("bodies[{index}].bolts[{at}]"));
+            places.zip(&self.bolts)
+        };
+        let faces = bolts().map(|(place, bolt)| bolt.cut(&place, mesh));
+        let faces = faces.collect::<Result<Vec<_>, _>>()?;
+        let resolved = bolts()
+            .zip(&faces)
+            .map(|((place, bolt), faces)| bolt.resolve(&place, (index, mesh, model), faces));
+        resolved.collect()
     }
 
     /// Adds the groups that are made of others.
@@ -298,7 +332,7 @@ impl SceneBody {
                 });
             };
             let place = format!("{place}.group");
-            for &cell in selection::cells(mesh, &place, group)? {
+            for cell in selection::cells(mesh, &place, group)? {
                 selection::check_cell(mesh, &place, cell)?;
                 if of_cell[cell] != NONE {
                     return Err(Error::NotAccepted {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::field::{finite, is_zero};
-use super::selection;
+use super::{SceneGroup, selection};
 use crate::body::{Foundation, Ground, Group, Mesh};
 use crate::error::{Error, check_length};
 
@@ -17,7 +17,7 @@ use crate::error::{Error, check_length};
 pub struct SceneFoundation {
     /// Group of surface facets, under which springs are spread, or of points, each with one; this or `at`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub group: Option<String>,
+    pub group: Option<SceneGroup>,
     /// Position of a node, in the unit of length; this or `group`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub at: Option<Vec<f64>>,
@@ -36,7 +36,7 @@ impl SceneFoundation {
     #[must_use]
     pub fn under(group: &str, normal: f64) -> Self {
         Self {
-            group: Some(group.to_owned()),
+            group: Some(group.into()),
             normal,
             ..Self::default()
         }
@@ -93,7 +93,7 @@ impl SceneFoundation {
         match (&self.group, &self.at) {
             (Some(group), None) => {
                 let place = format!("{place}.group");
-                match selection::group(mesh, &place, group)? {
+                match &*selection::group(mesh, &place, group)? {
                     Group::Points(points) => Ok(Ground::Nodes(points.clone())),
                     _ => Ok(Ground::Area(selection::facets(mesh, &place, group)?)),
                 }

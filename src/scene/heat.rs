@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer, Serialize, de};
 use super::field::{Either, SceneAffine, finite};
 use super::nodal_table;
 use crate::body::{Load, Mesh};
-use crate::error::Error;
+use crate::error::{Error, check_finite, check_length};
 
 /// How much warmer a body is than without stress.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -21,6 +21,10 @@ pub enum SceneTemperature {
     Affine(SceneAffine),
     /// A value at every node.
     Table(NodalFile),
+    /// Values that the calling code gives, one per node of the body's mesh.
+    #[serde(skip_serializing)]
+    #[cfg_attr(feature = "cli", schemars(skip))]
+    Given(Vec<f64>),
 }
 
 /// A table of nodes in a file.
@@ -98,6 +102,11 @@ impl SceneTemperature {
                 values
                     .map(|(value, needed)| if needed { value } else { 0.0 })
                     .collect()
+            }
+            Self::Given(values) => {
+                check_length(place, mesh.nodes.len(), values.len())?;
+                check_finite(place, values)?;
+                values.clone()
             }
         };
         Ok(Load::Temperature { cells, rise })

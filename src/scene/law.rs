@@ -1,6 +1,7 @@
 //! Laws of contact, as a scene states them.
 
 use std::collections::BTreeMap;
+use std::slice::from_ref;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -299,7 +300,7 @@ fn regions(
             Ok(Region {
                 body: index,
                 friction: coefficient(place.clone(), *friction)?,
-                facets: selection::facets(&body.mesh, &place, group)?,
+                facets: selection::facets(&body.mesh, &place, from_ref(group))?,
             })
         });
         regions.collect::<Result<Vec<_>, Error>>()

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use super::SceneGroup;
 use super::field::{SceneAffine, SceneAffineVector, SceneSpin, finite};
 use super::heat::SceneTemperature;
 use super::selection;
@@ -22,14 +23,14 @@ pub enum SceneLoad {
         /// Positive presses, in force per area.
         pressure: f64,
         /// Group of surface facets.
-        group: String,
+        group: SceneGroup,
     },
     /// Force per area.
     Traction {
         /// In global axes, one entry per axis, in force per area.
         traction: Vec<f64>,
         /// Group of surface facets.
-        group: String,
+        group: SceneGroup,
     },
     /// Force per volume.
     BodyForce {
@@ -37,7 +38,7 @@ pub enum SceneLoad {
         body_force: Vec<f64>,
         /// Group of cells; all cells when left out.
         #[serde(skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
     },
     /// Force at a node.
     PointForce {
@@ -51,14 +52,14 @@ pub enum SceneLoad {
         /// Positive presses, in force per area.
         pressure: SceneAffine,
         /// Group of surface facets.
-        group: String,
+        group: SceneGroup,
     },
     /// Force per area that varies with position.
     VaryingTraction {
         /// In global axes, in force per area.
         traction: SceneAffineVector,
         /// Group of surface facets.
-        group: String,
+        group: SceneGroup,
     },
     /// A force, a moment or both, spread as tractions over a group, which is free to deform.
     Spread {
@@ -74,7 +75,7 @@ pub enum SceneLoad {
         #[serde(skip_serializing_if = "Option::is_none")]
         at: Option<Vec<f64>>,
         /// Group of surface facets.
-        group: String,
+        group: SceneGroup,
     },
     /// Weight, by the density of the materials.
     Gravity {
@@ -82,7 +83,7 @@ pub enum SceneLoad {
         gravity: Vec<f64>,
         /// Group of cells; all cells when left out.
         #[serde(skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
     },
     /// Force away from the axis of a steady spin, by the density of the materials; a factor multiplies the
     /// force, not the speed.
@@ -91,7 +92,7 @@ pub enum SceneLoad {
         centrifugal: SceneSpin,
         /// Group of cells; all cells when left out.
         #[serde(skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
     },
     /// Heat, by the expansion of the materials.
     Temperature {
@@ -99,7 +100,7 @@ pub enum SceneLoad {
         temperature: SceneTemperature,
         /// Group of cells; all cells when left out.
         #[serde(skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
     },
     /// Stress that is there before anything is displaced.
     InitialStress {
@@ -108,7 +109,7 @@ pub enum SceneLoad {
         initial_stress: Vec<f64>,
         /// Group of cells; all cells when left out.
         #[serde(skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
     },
 }
 
@@ -118,7 +119,7 @@ impl SceneLoad {
     pub fn pressure(group: &str, pressure: f64) -> Self {
         Self::Pressure {
             pressure,
-            group: group.to_owned(),
+            group: group.into(),
         }
     }
 
@@ -127,7 +128,7 @@ impl SceneLoad {
     pub fn traction(group: &str, traction: &[f64]) -> Self {
         Self::Traction {
             traction: traction.to_vec(),
-            group: group.to_owned(),
+            group: group.into(),
         }
     }
 
@@ -165,7 +166,7 @@ impl SceneLoad {
             force: Some(force.to_vec()),
             moment: None,
             at: None,
-            group: group.to_owned(),
+            group: group.into(),
         }
     }
 
@@ -176,7 +177,7 @@ impl SceneLoad {
             force: None,
             moment: Some(moment.to_vec()),
             at: None,
-            group: group.to_owned(),
+            group: group.into(),
         }
     }
 
@@ -190,10 +191,10 @@ impl SceneLoad {
     ) -> Result<Load, Error> {
         let axes = mesh.dimension;
         let at = |field: &str| format!("{place}.{field}");
-        let facets = |group: &String| selection::facets(mesh, &at("group"), group);
-        let cells = |group: &Option<String>| match group {
+        let facets = |group: &SceneGroup| selection::facets(mesh, &at("group"), group);
+        let cells = |group: &Option<SceneGroup>| match group {
             None => Ok((0..mesh.cell_count()).collect()),
-            Some(group) => selection::cells(mesh, &at("group"), group).map(<[usize]>::to_vec),
+            Some(group) => selection::cells(mesh, &at("group"), group),
         };
         match self {
             Self::Pressure { pressure, group } => {

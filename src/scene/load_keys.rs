@@ -2,9 +2,9 @@
 
 use serde::{Deserialize, Deserializer, de};
 
-use super::SceneLoad;
 use super::field::{Either, SceneAffine, SceneAffineVector, SceneSpin};
 use super::heat::SceneTemperature;
+use super::{SceneGroup, SceneLoad};
 
 /// The keys of a load in JSON.
 #[derive(Deserialize)]
@@ -20,7 +20,7 @@ struct Keys {
     centrifugal: Option<SceneSpin>,
     temperature: Option<SceneTemperature>,
     initial_stress: Option<Vec<f64>>,
-    group: Option<String>,
+    group: Option<SceneGroup>,
     at: Option<Vec<f64>>,
 }
 

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::field::line;
-use super::selection;
+use super::{SceneGroup, selection};
 use crate::body::{Mesh, Model};
 use crate::error::Error;
 
@@ -95,7 +95,11 @@ pub(super) fn from_direction(
 
 /// Nodes of a group of facets, and axes of which the first is the outward normal: the mean of the facets
 /// around, by area.
-pub(super) fn normals(place: &str, group: &str, mesh: &Mesh) -> Result<(Vec<usize>, Axes), Error> {
+pub(super) fn normals(
+    place: &str,
+    group: &SceneGroup,
+    mesh: &Mesh,
+) -> Result<(Vec<usize>, Axes), Error> {
     let nodes = selection::nodes(mesh, place, group)?;
     let mut sums = vec![Vector3::zeros(); nodes.len()];
     for facet in selection::facets(mesh, place, group)? {

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::SceneTransverse;
 use super::field::{SceneLine, is_zero, material_direction};
+use super::{SceneGroup, SceneTransverse};
 use crate::body::{Material, MaterialAxes, Model, Orthotropic};
 use crate::error::Error;
 
@@ -20,7 +20,7 @@ use crate::error::Error;
 pub struct SceneMaterial {
     /// Group of cells; all cells when left out, which only a single material may do.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub group: Option<String>,
+    pub group: Option<SceneGroup>,
     /// Young's modulus `E > 0`, in force per area.
     #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -124,7 +124,7 @@ impl SceneMaterial {
     /// The same for a group of cells only.
     #[must_use]
     pub fn of(mut self, group: &str) -> Self {
-        self.group = Some(group.to_owned());
+        self.group = Some(group.into());
         self
     }
 

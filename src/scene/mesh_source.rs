@@ -1,6 +1,7 @@
 //! Where a body's mesh comes from: a file, a generator, or the calling code.
 
 use std::path::{Path, PathBuf};
+use std::slice::from_ref;
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
@@ -290,7 +291,8 @@ fn check_given(place: &str, mesh: &Mesh) -> Result<(), Error> {
 fn part(mesh: &Mesh, place: &str, groups: &[String]) -> Result<Mesh, Error> {
     let mut cells = Vec::new();
     for (at, group) in groups.iter().enumerate() {
-        cells.extend_from_slice(selection::cells(mesh, &format!("{place}[{at}]"), group)?);
+        let place = format!("{place}[{at}]");
+        cells.extend(selection::cells(mesh, &place, from_ref(group))?);
     }
     Ok(mesh.part(&cells))
 }

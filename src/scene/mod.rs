@@ -1,7 +1,7 @@
 //! SCENE: what the user writes.
 //!
 //! ```text
-//! bodies    mesh, model, materials, supports, loads, springs
+//! bodies    mesh, model, materials, supports, loads, springs, bolts
 //! rigid_bodies  surfaces, motion given or free under forces
 //! contacts  group of surface facets, what it may touch, friction or another law, gap
 //! steps     instants, factors of loads, supports and rigid bodies, motions of obstacles, gaps
@@ -14,14 +14,17 @@
 //! consistent system of units of the user's choice; nothing is converted.
 
 mod bare;
+mod bolt;
 mod contact;
 mod elastic_body;
 mod field;
 mod foundation;
 mod general_contact;
+mod group;
 mod half_space;
 mod heat;
 mod height_map;
+mod itself;
 mod json;
 mod law;
 mod load;
@@ -49,15 +52,18 @@ use serde::{Deserialize, Serialize};
 
 use crate::alternation::{Interrupt, Settings};
 use crate::body::Body;
+use crate::condensation::Engine;
 use crate::contact::{ContactPair, RigidBody};
 use crate::error::Error;
 
 pub use bare::BareProblem;
+pub use bolt::SceneBolt;
 pub use contact::{SceneContact, SceneSurface};
 pub use elastic_body::{SceneBody, SceneFormulation, SceneModel};
 pub use field::{SceneAffine, SceneAffineVector, SceneLine, SceneSpin, SceneTurn};
 pub use foundation::SceneFoundation;
 pub use general_contact::SceneGeneralContact;
+pub use group::SceneGroup;
 pub use half_space::{
     HalfSpaceHistory, HalfSpaceScene, SceneDrive, SceneHalf, SceneHalfSpace, SceneRolling,
     SceneSurfaceShape, SceneSurroundings,
@@ -87,6 +93,7 @@ use rigid_body::Resolved;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a scene")]
+#[non_exhaustive]
 pub struct Scene {
     /// Where editors find the schema of scenes; not read.
     #[serde(default, rename = "$schema", skip_serializing_if = "Option::is_none")]
@@ -158,6 +165,9 @@ pub struct SceneSettings {
     /// A flag that ends the solve once it is raised, with the best state; not part of a scene's file.
     #[serde(skip)]
     pub interrupt: Option<Interrupt>,
+    /// What factorises the bodies; not part of a scene's file.
+    #[serde(skip)]
+    pub engine: Engine,
 }
 
 /// A scene in the terms of mechanics: groups resolved, facets outward, values checked.
@@ -316,7 +326,8 @@ impl Scene {
 
     fn build(&self) -> Result<Mechanics, Error> {
         let settings = self.settings.resolve()?;
-        if self.contacts.is_empty() && self.general_contact.is_none() {
+        let bolted = self.bodies.iter().any(|body| !body.bolts.is_empty());
+        if self.contacts.is_empty() && self.general_contact.is_none() && !bolted {
             return Err(Error::Empty {
                 place: "contacts".to_owned(),
             });
@@ -324,10 +335,12 @@ impl Scene {
         let folder = self.source.parent().unwrap_or(Path::new(""));
         let (mut bodies, mut room) = (Vec::with_capacity(self.bodies.len()), MOST_NODES);
         let mut notes = Vec::new();
+        let mut bolts = Vec::new();
         for (at, body) in self.bodies.iter().enumerate() {
-            let body = body.resolve(&format!("bodies[{at}]"), folder, room, &mut notes)?;
+            let (body, of_body) = body.resolve(at, folder, room, &mut notes)?;
             room = room.saturating_sub(body.mesh.nodes.len());
             bodies.push(body);
+            bolts.extend(of_body);
         }
         check_together(&bodies)?;
         let mut rigid = self.resolve_rigid(folder, &bodies)?;
@@ -340,8 +353,14 @@ impl Scene {
                 rigid[number].body.pairs.push(at);
             }
         }
-        let rigid_bodies: Vec<RigidBody> = rigid.into_iter().map(|rigid| rigid.body).collect();
+        let mut rigid_bodies: Vec<RigidBody> = rigid.into_iter().map(|rigid| rigid.body).collect();
         check_touched(&rigid_bodies)?;
+        for bolt::Resolved { pair, mut between } in bolts {
+            check_name(&bodies, &rigid_bodies, &between)?;
+            between.pairs.push(contacts.len());
+            rigid_bodies.push(between);
+            contacts.push(pair);
+        }
         if let Some(general) = &self.general_contact {
             let more = general.pairs(&mut bodies, &contacts)?;
             contacts.extend(more);
@@ -350,6 +369,7 @@ impl Scene {
             Some(steps) => steps.resolve(&bodies, &contacts, &rigid_bodies)?,
             None => LoadHistory::default(),
         };
+        bolt::check_locks(&rigid_bodies, &history)?;
         Ok(Mechanics {
             bodies,
             contacts,
@@ -361,21 +381,31 @@ impl Scene {
     }
 
     fn resolve_rigid(&self, folder: &Path, bodies: &[Body]) -> Result<Vec<Resolved>, Error> {
-        let mut names: Vec<&str> = bodies.iter().map(|body| body.name.as_str()).collect();
-        let mut rigid = Vec::with_capacity(self.rigid_bodies.len());
+        let mut rigid: Vec<Resolved> = Vec::with_capacity(self.rigid_bodies.len());
         for (at, stated) in self.rigid_bodies.iter().enumerate() {
-            let place = format!("rigid_bodies[{at}]");
-            if names.contains(&stated.name.as_str()) {
-                return Err(Error::NotAccepted {
-                    place: format!("{place}.name"),
-                    found: format!("`{}` again", stated.name),
-                    accepted: "a name of its own for every body".to_owned(),
-                });
-            }
-            names.push(&stated.name);
-            rigid.push(stated.resolve(&place, folder, bodies)?);
+            let found = stated.resolve(&format!("rigid_bodies[{at}]"), folder, bodies)?;
+            check_name(bodies, rigid.iter().map(|rigid| &rigid.body), &found.body)?;
+            rigid.push(found);
         }
         Ok(rigid)
+    }
+}
+
+/// Refuses a name that a body, a rigid body or a bolt has already.
+fn check_name<'a>(
+    bodies: &[Body],
+    rigid: impl IntoIterator<Item = &'a RigidBody>,
+    new: &RigidBody,
+) -> Result<(), Error> {
+    let mut names =
+        (bodies.iter().map(|body| &body.name)).chain(rigid.into_iter().map(|body| &body.name));
+    match names.any(|name| *name == new.name) {
+        false => Ok(()),
+        true => Err(Error::NotAccepted {
+            place: format!("{}.name", new.place),
+            found: format!("`{}` again", new.name),
+            accepted: "a name of its own for every body".to_owned(),
+        }),
     }
 }
 

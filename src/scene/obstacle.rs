@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::field::is_zero;
 use super::mesh_source::{MOST_NODES, MeshSource};
 use super::selection::{norm, vector};
-use super::{read, selection};
+use super::{SceneGroup, read, selection};
 use crate::contact::{Obstacle, Outline, Profile, Triangulated};
 use crate::error::{Error, check_length};
 use crate::mesh_file::stl;
@@ -118,7 +118,7 @@ pub enum SceneObstacle {
         file: PathBuf,
         /// Group of surface facets of the Gmsh file; their corners count.
         #[serde(default, skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
         /// Factor on all positions `> 0`; 1 when left out.
         #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -197,7 +197,7 @@ impl SceneObstacle {
             } => shape.punch(center, axis, [*radius, *edge]),
             Self::Profile { points, smooth } => shape.profile(points, *smooth),
             Self::Triangles { file, group, scale } => {
-                shape.triangles([folder, file], group.as_deref(), *scale)
+                shape.triangles([folder, file], group.as_ref(), *scale)
             }
         }
     }
@@ -365,7 +365,7 @@ impl Shape {
     fn triangles(
         &self,
         [folder, file]: [&Path; 2],
-        group: Option<&str>,
+        group: Option<&SceneGroup>,
         scale: Option<f64>,
     ) -> Result<Obstacle, Error> {
         let scale = positive(
@@ -394,7 +394,7 @@ impl Shape {
     fn of_mesh(
         &self,
         [folder, file]: [&Path; 2],
-        group: &str,
+        group: &SceneGroup,
         scale: f64,
     ) -> Result<Triangulated, Error> {
         let source = MeshSource::File {

@@ -37,10 +37,7 @@ impl Scene {
             let place = format!("bodies[{at}].mesh");
             let mesh = body.mesh.mesh(&place, folder, MOST_NODES);
             let mesh = mesh.map_err(|error| self.locate(error))?;
-            let refined = mesh
-                .refined()
-                .map_err(|error| self.locate(error.within(&place)))?;
-            body.mesh = MeshSource::Given(refined);
+            body.mesh = MeshSource::Given(mesh.refined());
             Ok(())
         })?;
         Ok(scene)

@@ -99,6 +99,7 @@ impl SceneRigidBody {
             reference: self.reference_point(place, dimension)?,
             components,
             pairs: Vec::new(),
+            cut: None,
         };
         if bodies.iter().any(|body| body.model == Model::Axisymmetric) {
             along_the_axis(&body)?;

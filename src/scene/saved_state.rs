@@ -25,6 +25,9 @@ pub struct SavedState {
     pub reaction: Vec<Exact>,
     /// Rigid motion per free mode, in metre.
     pub motion: Vec<Exact>,
+    /// Shortening per bolt at which it was locked, in metre, in the order of rigid bodies and bolts; empty while none was.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub locked: Vec<Option<Exact>>,
     /// Slip per contact unknown since the start of the history, in metre.
     pub slip: Vec<Exact>,
     /// Displacement per body and unknown, in metre.
@@ -128,6 +131,7 @@ mod tests {
             at: Exact(0.3),
             reaction: exact(&numbers),
             motion: vec![],
+            locked: vec![],
             slip: vec![],
             displacements: vec![exact(&numbers)],
             ledger: vec![],

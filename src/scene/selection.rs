@@ -1,5 +1,8 @@
 //! From the names and positions of a scene to nodes, facets and cells of the mesh.
 
+use std::borrow::Cow;
+use std::slice::from_ref;
+
 use super::spelling;
 use crate::body::{Facet, Group, Mesh};
 use crate::error::{Error, check_finite, check_length};
@@ -11,8 +14,20 @@ pub(super) const AT_NODE: f64 = 1e-6;
 const NO_GROUPS: &str = "a mesh with named groups of facets and cells (in Gmsh physical groups, such as `Physical \
     Surface(\"contact\") = {3};` for a face of a solid, and one for its volume; then mesh it again)";
 
+/// The group of this name, or one of all members of several; it must not be empty.
+pub(super) fn group<'a>(
+    mesh: &'a Mesh,
+    place: &str,
+    names: &[String],
+) -> Result<Cow<'a, Group>, Error> {
+    match names {
+        [one] => named(mesh, place, one).map(Cow::Borrowed),
+        several => union(mesh, place, several).map(Cow::Owned),
+    }
+}
+
 /// The group of this name, which must not be empty.
-pub(super) fn group<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a Group, Error> {
+fn named<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a Group, Error> {
     let Some(group) = mesh.groups.get(name) else {
         if mesh.groups.is_empty() {
             return Err(Error::NotAccepted {
@@ -48,11 +63,11 @@ fn kind_of(mesh: &Mesh, group: &Group) -> &'static str {
     }
 }
 
-fn wrong_kind(mesh: &Mesh, place: &str, name: &str, group: &Group, accepted: &str) -> Error {
+fn wrong_kind(mesh: &Mesh, place: &str, names: &[String], group: &Group, accepted: &str) -> Error {
     let found = kind_of(mesh, group);
     Error::NotAccepted {
         place: place.to_owned(),
-        found: format!("group `{name}` of {found}"),
+        found: format!("group {} of {found}", quoted(names)),
         accepted: format!("a group of {accepted}"),
     }
 }
@@ -62,14 +77,14 @@ pub(super) fn union(mesh: &Mesh, place: &str, names: &[String]) -> Result<Group,
     let mut union: Option<Group> = None;
     for (at, name) in names.iter().enumerate() {
         let place = format!("{place}[{at}]");
-        let found = group(mesh, &place, name)?;
+        let found = named(mesh, &place, name)?;
         let Some(so_far) = &mut union else {
             union = Some(found.clone());
             continue;
         };
         if !so_far.append(found) {
             let accepted = kind_of(mesh, so_far);
-            return Err(wrong_kind(mesh, &place, name, found, accepted));
+            return Err(wrong_kind(mesh, &place, from_ref(name), found, accepted));
         }
     }
     let mut union = union.ok_or_else(|| Error::Empty {
@@ -83,26 +98,26 @@ pub(super) fn union(mesh: &Mesh, place: &str, names: &[String]) -> Result<Group,
 }
 
 /// Cells of a group.
-pub(super) fn cells<'a>(mesh: &'a Mesh, place: &str, name: &str) -> Result<&'a [usize], Error> {
-    match group(mesh, place, name)? {
+pub(super) fn cells(mesh: &Mesh, place: &str, names: &[String]) -> Result<Vec<usize>, Error> {
+    match group(mesh, place, names)?.into_owned() {
         Group::Cells(cells) => Ok(cells),
-        other => Err(wrong_kind(mesh, place, name, other, "cells")),
+        other => Err(wrong_kind(mesh, place, names, &other, "cells")),
     }
 }
 
 /// Facets of a group, running outward.
-pub(super) fn facets(mesh: &Mesh, place: &str, name: &str) -> Result<Vec<Facet>, Error> {
-    match group(mesh, place, name)? {
+pub(super) fn facets(mesh: &Mesh, place: &str, names: &[String]) -> Result<Vec<Facet>, Error> {
+    match &*group(mesh, place, names)? {
         Group::Facets(facets) => mesh
             .orient(facets)
-            .map_err(|error| error.within(format_args!("{place}: group `{name}`"))),
-        other => Err(wrong_kind(mesh, place, name, other, "surface facets")),
+            .map_err(|error| error.within(format_args!("{place}: group {}", quoted(names)))),
+        other => Err(wrong_kind(mesh, place, names, other, "surface facets")),
     }
 }
 
 /// Nodes of a group of any kind, each once, in increasing order.
-pub(super) fn nodes(mesh: &Mesh, place: &str, name: &str) -> Result<Vec<usize>, Error> {
-    let mut nodes: Vec<usize> = match group(mesh, place, name)? {
+pub(super) fn nodes(mesh: &Mesh, place: &str, names: &[String]) -> Result<Vec<usize>, Error> {
+    let mut nodes: Vec<usize> = match &*group(mesh, place, names)? {
         Group::Cells(cells) => {
             let mut nodes = Vec::new();
             for &cell in cells {
@@ -121,6 +136,12 @@ pub(super) fn nodes(mesh: &Mesh, place: &str, name: &str) -> Result<Vec<usize>, 
     nodes.sort_unstable();
     nodes.dedup();
     Ok(nodes)
+}
+
+/// Names as they stand in messages.
+fn quoted(names: &[String]) -> String {
+    let names: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    names.join(", ")
 }
 
 /// Refuses the number of a cell that the mesh does not hold.

@@ -53,7 +53,7 @@ pub struct SceneSteps {
     /// By what a load, a support, or a component of a rigid body is multiplied: rows `[instant, factor]`, rising,
     /// under its place, such as `bodies[0].loads[1]`, `bodies[0].supports[0]` or `rigid_bodies[0].force[1]`; of a
     /// rigid group its given motion, `bodies[0].rigid_groups[0].motion`, and force and moment,
-    /// `bodies[0].rigid_groups[0].load`.
+    /// `bodies[0].rigid_groups[0].load`; of a bolt what is given, `bodies[0].bolts[0].force` or `.shortening`.
     #[serde(default)]
     pub factors: BTreeMap<String, Vec<Vec<f64>>>,
     /// How far an obstacle has moved from where the scene puts it: rows `[instant, x, y]` or
@@ -212,9 +212,7 @@ pub(crate) fn driven(bodies: &[Body], rigid: &[RigidBody]) -> Vec<(String, Drive
     }
     let dimension = bodies.first().map_or(3, |body| body.mesh.dimension);
     for (body, of) in rigid.iter().enumerate() {
-        let lives = |k: &usize| dimension == 3 || [0, 1, 5].contains(k);
-        let components = (0..6).filter(lives);
-        places.extend(components.map(|component| {
+        places.extend(of.movable(dimension).map(|component| {
             (
                 of.component_place(component, dimension),
                 Driven::Rigid { body, component },
@@ -266,6 +264,11 @@ impl LoadHistory {
             Source::Support(index) => Driven::Support { body, index },
             Source::Tie(index) => Driven::Motion { body, index },
         };
+        self.factor_of(driven, instant)
+    }
+
+    /// The factor of a load, support or component at an instant.
+    pub(crate) fn factor_of(&self, driven: Driven, instant: f64) -> f64 {
         let found = self.factors.iter().find(|(_, other, _)| *other == driven);
         found.map_or(1.0, |(.., table)| table.at(instant)[0])
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Deserializer, Serialize, de};
 
 use super::field::{SceneTurn, finite};
 use super::local_axes::{self, SceneAxis};
-use super::selection;
+use super::{SceneGroup, selection};
 use crate::body::{Mesh, Model, Support};
 use crate::error::{Error, check_length};
 
@@ -17,14 +17,14 @@ pub enum SceneSupport {
     /// All nodes of a group.
     Group {
         /// Group of cells, facets, edges or points.
-        group: String,
+        group: SceneGroup,
         /// One entry per axis, in the unit of length; `null` leaves the component free.
         displacement: Vec<Option<f64>>,
     },
     /// All nodes of a group, which moves as a rigid body: by `displacement`, and turned about an axis.
     Turned {
         /// Group of cells, facets, edges or points.
-        group: String,
+        group: SceneGroup,
         /// One entry per axis, in the unit of length; `null` leaves the component free.
         displacement: Vec<Option<f64>>,
         /// A small rotation, of the components that `displacement` gives.
@@ -34,14 +34,14 @@ pub enum SceneSupport {
     /// node the mean of the facets around it, by area. Across it they are free.
     Normal {
         /// Group of surface facets.
-        group: String,
+        group: SceneGroup,
         /// Displacement outward, in the unit of length.
         normal: f64,
     },
     /// All nodes of a group, in cylindrical axes.
     Around {
         /// Group of cells, facets, edges or points.
-        group: String,
+        group: SceneGroup,
         /// The axis; no node of the group is on it.
         axis: SceneAxis,
         /// Radial, around and, in 3D, along the axis, in the unit of length; `null` leaves the component free.
@@ -51,7 +51,7 @@ pub enum SceneSupport {
     Along {
         /// Group of cells, facets, edges or points; this or `at`.
         #[serde(skip_serializing_if = "Option::is_none")]
-        group: Option<String>,
+        group: Option<SceneGroup>,
         /// Position of a node, in the unit of length; this or `group`.
         #[serde(skip_serializing_if = "Option::is_none")]
         at: Option<Vec<f64>>,
@@ -73,7 +73,7 @@ pub enum SceneSupport {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a support")]
 struct Keys {
-    group: Option<String>,
+    group: Option<SceneGroup>,
     at: Option<Vec<f64>>,
     displacement: Option<Vec<Option<f64>>>,
     turn: Option<SceneTurn>,
@@ -142,7 +142,7 @@ impl SceneSupport {
     #[must_use]
     pub fn of(group: &str, displacement: &[Option<f64>]) -> Self {
         Self::Group {
-            group: group.to_owned(),
+            group: group.into(),
             displacement: displacement.to_vec(),
         }
     }
@@ -152,7 +152,7 @@ impl SceneSupport {
     #[must_use]
     pub fn turned(group: &str, displacement: &[Option<f64>], turn: SceneTurn) -> Self {
         Self::Turned {
-            group: group.to_owned(),
+            group: group.into(),
             displacement: displacement.to_vec(),
             turn,
         }
@@ -162,7 +162,7 @@ impl SceneSupport {
     #[must_use]
     pub fn normal(group: &str, normal: f64) -> Self {
         Self::Normal {
-            group: group.to_owned(),
+            group: group.into(),
             normal,
         }
     }
@@ -171,7 +171,7 @@ impl SceneSupport {
     #[must_use]
     pub fn around(group: &str, axis: SceneAxis, displacement: &[Option<f64>]) -> Self {
         Self::Around {
-            group: group.to_owned(),
+            group: group.into(),
             axis,
             displacement: displacement.to_vec(),
         }
@@ -181,7 +181,7 @@ impl SceneSupport {
     #[must_use]
     pub fn along(group: &str, direction: &[f64], displacement: f64) -> Self {
         Self::Along {
-            group: Some(group.to_owned()),
+            group: Some(group.into()),
             at: None,
             direction: direction.to_vec(),
             displacement: vec![Some(displacement)],

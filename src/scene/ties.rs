@@ -3,6 +3,7 @@
 use nalgebra::{Rotation3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
+use super::SceneGroup;
 use super::field::{finite, line};
 use super::load::wrench;
 use super::local_axes::SceneAxis;
@@ -22,7 +23,7 @@ use crate::error::{Error, check_length};
 )]
 pub struct SceneRigidGroup {
     /// Group of cells, facets, edges or points; its nodes do not all lie on a line.
-    pub group: String,
+    pub group: SceneGroup,
     /// The reference point, in the unit of length.
     pub reference_point: Vec<f64>,
     /// Displacement of the reference point, one entry per axis, in the unit of length; `null` leaves it free, as
@@ -50,9 +51,9 @@ pub struct SceneRigidGroup {
 )]
 pub struct ScenePeriodic {
     /// Group of the nodes that are mapped.
-    pub from: String,
+    pub from: SceneGroup,
     /// Group of the nodes that they are mapped onto, one onto one.
-    pub onto: String,
+    pub onto: SceneGroup,
     /// What maps them, in the unit of length; this, or `axis` and `angle`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub translation: Option<Vec<f64>>,
@@ -69,7 +70,7 @@ impl SceneRigidGroup {
     #[must_use]
     pub fn new(group: &str, reference_point: &[f64]) -> Self {
         Self {
-            group: group.to_owned(),
+            group: group.into(),
             reference_point: reference_point.to_vec(),
             ..Self::default()
         }
@@ -147,8 +148,8 @@ impl ScenePeriodic {
     #[must_use]
     pub fn translated(from: &str, onto: &str, translation: &[f64]) -> Self {
         Self {
-            from: from.to_owned(),
-            onto: onto.to_owned(),
+            from: from.into(),
+            onto: onto.into(),
             translation: Some(translation.to_vec()),
             ..Self::default()
         }
@@ -158,8 +159,8 @@ impl ScenePeriodic {
     #[must_use]
     pub fn turned(from: &str, onto: &str, axis: SceneAxis, angle: f64) -> Self {
         Self {
-            from: from.to_owned(),
-            onto: onto.to_owned(),
+            from: from.into(),
+            onto: onto.into(),
             axis: Some(axis),
             angle: Some(angle),
             translation: None,

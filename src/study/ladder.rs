@@ -68,7 +68,7 @@ impl Ladder {
         let solved = solution.bodies().iter().zip(solution.displacements());
         let fields = solved.map(|(body, u)| Some((TensorGrid::of(&body.mesh)?, u.clone())));
         self.fields.push(fields.collect());
-        let problem = solution.condensed().problem().clone();
+        let problem = solution.precise()?.problem().clone();
         if problem.unknowns() <= plan.loop_unknowns || self.chosen.is_none() {
             self.chosen = Some((self.meshes.len() - 1, problem.clone()));
         }

@@ -19,6 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Johnson 1985, §7.2 (E5)",
     floor: "the bodies are a hundred half-widths wide and high, not half-planes: (a/L)² = 1e-4; tangents are inclined by x/R, so that p x/R of a vertical pressure counts as friction: a/(2 μ R) = 8e-6 of μ p₀",
     measure,
+    drawn: None,
 };
 
 /// Half the width and the height of each body, in mm.

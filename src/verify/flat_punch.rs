@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Johnson 1985, §2.8 (E6)",
     floor: "the body is a hundred half-widths wide and high, not a half-plane: (a/L)² = 1e-4",
     measure,
+    drawn: None,
 };
 
 /// Half-width of the punch, width and height of half the body, in mm.

@@ -18,6 +18,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Spence 1975, Johnson 1985, §5.4 (E8); coupled: computed independently",
     floor: "the closed form neglects what friction does to the pressure, μβ = 1.1 %; the body is 1600 half-widths high: its mean stress widens the contact by 0.4 % of what a growing pressure draws it together",
     measure,
+    drawn: None,
 };
 
 /// β = 0.12/1.12: with more of it the closed form neglects more, with less the size of the body

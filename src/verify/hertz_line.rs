@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Johnson 1985, §4.2 (E3)",
     floor: "the body is four hundred half-widths wide and high, not a half-plane: (a/L)² = 9e-6 at most; smaller bodies show that p₀ goes with it",
     measure,
+    drawn: None,
 };
 
 /// R of the parabola, width and height of half the body, in mm.

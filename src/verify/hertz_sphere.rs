@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Johnson 1985, §4.2 (E4)",
     floor: "normals are inclined by r/R, which Hertz neglects: 0.16 a/R = 5e-5 of the load, as measured with a hundred times that; the far sides, 40 contact radii away, move as under a point force (E12)",
     measure,
+    drawn: None,
 };
 
 /// R of the sphere and side of the block, in mm.

@@ -15,6 +15,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "statics (E11)",
     floor: "",
     measure,
+    drawn: Some(|| scene(CellKind::Quad4, 0.9 * FRICTION, FRICTION, [2.0, 1.0])),
 };
 
 const WEIGHT: f64 = 1000.0;

@@ -19,6 +19,7 @@ pub(super) const ENTRY: Entry = Entry {
     floor: "at the edge the circle rises 0.4 % more than its parabola, so coarse meshes are near by \
             chance; u_y is published for large displacement, and how its base is held is not stated",
     measure,
+    drawn: Some(|| scene(2.0, 0.1, 1.0)),
 };
 
 const ALUMINIUM: Elastic = Elastic {

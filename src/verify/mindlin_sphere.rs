@@ -21,6 +21,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Mindlin 1949, Johnson 1985, §7.2 (E5)",
     floor: "the far sides, a hundred contact radii away, are rigid: 2a/(π L) = 0.7 % of δ_t at most; normals are inclined by r/R = 1e-4",
     measure,
+    drawn: None,
 };
 
 /// One material on both sides does not couple pressure and slip, and without ν friction is parallel

@@ -36,7 +36,9 @@ pub use metamorphic::metamorphic;
 use std::time::Instant;
 
 use crate::error::Error;
+use crate::pipeline::solve;
 use crate::report::{Verification, VerifiedQuantity, VerifiedScene};
+use crate::scene::Scene;
 
 /// One scene of the gallery, before it is computed.
 struct Entry {
@@ -46,6 +48,8 @@ struct Entry {
     floor: &'static str,
     /// Computes it; without the finest meshes if `quick`.
     measure: fn(quick: bool) -> Result<Vec<VerifiedQuantity>, Error>,
+    /// A scene of it that a picture can show: plane, on a coarse mesh, in a single state.
+    drawn: Option<fn() -> Result<Scene, Error>>,
 }
 
 const GALLERY: [Entry; 14] = [
@@ -81,6 +85,22 @@ pub fn verify(quick: bool) -> Result<Verification, Error> {
     })
 }
 
+/// The gallery with pictures of its scenes, for the page.
+///
+/// # Errors
+///
+/// As [`verify`].
+pub fn manual(quick: bool) -> Result<Verification, Error> {
+    let mut all = verify(quick)?;
+    for (entry, scene) in GALLERY.iter().zip(&mut all.scenes) {
+        let drawn = entry.drawn.map(|drawn| solve(&drawn()?)?.to_svg());
+        scene.picture = drawn
+            .transpose()
+            .map_err(|error| error.within(entry.name))?;
+    }
+    Ok(all)
+}
+
 impl Entry {
     fn verify(&self, quick: bool) -> Result<VerifiedScene, Error> {
         let start = Instant::now();
@@ -89,6 +109,7 @@ impl Entry {
             name: self.name,
             source: self.source,
             floor: self.floor,
+            picture: None,
             passed: quantities.iter().all(|quantity| quantity.passed),
             seconds: start.elapsed().as_secs_f64(),
             quantities,

@@ -15,6 +15,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "code_aster SSNV503",
     floor: "",
     measure,
+    drawn: None,
 };
 
 /// Pressing force, and pulls of 0.99 and 1.01 times what friction holds, in newton.
@@ -39,7 +40,7 @@ fn scene(cells: usize, pull: f64) -> Result<Scene, Error> {
     let area = 400.0;
     let traction = |group: &str, traction| SceneLoad::Traction {
         traction,
-        group: group.to_owned(),
+        group: group.into(),
     };
     pad.loads = vec![
         traction("top", vec![0.0, 0.0, -PRESSED / area]),

@@ -30,7 +30,7 @@ pub(super) fn hold(mut body: SceneBody, group: &str, axis: usize, value: f64) ->
     let axes = if body.model.is_some() { 2 } else { 3 };
     let given = |at: usize| (at == axis).then_some(value);
     body.supports.push(SceneSupport::Group {
-        group: group.to_owned(),
+        group: group.into(),
         displacement: (0..axes).map(given).collect(),
     });
     body
@@ -41,7 +41,7 @@ pub(super) fn on(obstacle: SceneObstacle, body: SceneBody, group: &str, friction
     Scene {
         bodies: vec![body],
         contacts: vec![SceneContact {
-            group: group.to_owned(),
+            group: group.into(),
             obstacle: Some(obstacle),
             friction: Some(friction),
             ..SceneContact::default()

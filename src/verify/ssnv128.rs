@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "code_aster V6.04.128; limit and rows computed independently",
     floor: "the limit is known to 0.001e-6 m, 6.5e-5 of the smallest value",
     measure,
+    drawn: Some(|| Ok(scene(square(16, [1.0, 1.0], CellKind::Quad4)?, 1.0))),
 };
 
 /// Side of the square, in metre.
@@ -55,7 +56,7 @@ pub(super) fn scene(mesh: Mesh, friction: f64) -> Scene {
         displacement: vec![None, Some(0.0)],
     });
     for (group, pressure) in ["left", "top"].into_iter().zip(PRESSURE) {
-        let group = group.to_owned();
+        let group = group.into();
         square.loads.push(SceneLoad::Pressure { pressure, group });
     }
     on(plane(&[0.0, 1.0]), square, "bottom", friction)

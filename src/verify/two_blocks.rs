@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "closed form (E9); in 3D Hooke's law in one direction",
     floor: "",
     measure,
+    drawn: Some(|| scene([CellKind::Quad4; 2], [5, 7])),
 };
 
 const MATERIAL: Elastic = Elastic {

@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "Johnson 1985, §4.2 (E3)",
     floor: "the bodies are four hundred half-widths wide and high, not half-planes: (a/L)² = 9e-6 at most",
     measure,
+    drawn: Some(|| scene(5.0, 1e-3)),
 };
 
 /// R of the upper and of the lower parabola, in mm.

@@ -14,6 +14,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "closed form (E9)",
     floor: "",
     measure,
+    drawn: Some(|| Ok(scene(square(8, [3.0, 0.5], CellKind::Quad4)?, 0.0))),
 };
 
 fn measure(_quick: bool) -> Result<Vec<VerifiedQuantity>, Error> {

@@ -16,6 +16,7 @@ pub(super) const ENTRY: Entry = Entry {
     source: "NAFEMS CGS-4 (E10)",
     floor: "",
     measure,
+    drawn: Some(|| scene(0.2, 4, 0.2)),
 };
 
 const SLOPE: f64 = 0.1;
@@ -40,7 +41,7 @@ fn scene(friction: f64, cells: usize, pull: f64) -> Result<Scene, Error> {
         },
         SceneLoad::Traction {
             traction: vec![pull / LENGTH, 0.0],
-            group: "bottom".to_owned(),
+            group: "bottom".into(),
         },
     ];
     Ok(on(plane(&[-sin, cos]), wedge, "bottom", friction))

@@ -4,8 +4,10 @@
 #[path = "../square/mod.rs"]
 mod square;
 
+mod accuracy_requests;
 mod axisymmetric;
 mod cube;
+mod error_bound;
 mod hertz;
 mod konter;
 mod obstacles;

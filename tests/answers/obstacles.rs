@@ -64,12 +64,10 @@ impl Pressing {
             group: "top".into(),
             displacement: top.into_iter().map(Some).collect(),
         });
-        scene.contacts.push(SceneContact {
-            group: "bottom".into(),
-            obstacle: Some((self.obstacle)(motion)),
-            friction: Some(self.friction),
-            ..SceneContact::default()
-        });
+        let obstacle = (self.obstacle)(motion);
+        scene
+            .contacts
+            .push(SceneContact::on(obstacle, "bottom", self.friction));
         certified(&scene)
     }
 }

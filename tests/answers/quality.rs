@@ -1,7 +1,6 @@
 //! The oscillation of the contact pressure: of second order where the pressure is smooth, and of the
 //! size of the checkerboard where there is one.
 
-use dpana::alternation::Outcome;
 use dpana::body::{self, CellKind, graded};
 use dpana::condensation::Condensed;
 use dpana::kkt::{self, BodyState, Judge};
@@ -61,12 +60,9 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         .iter()
         .map(|state| kkt::balance(state).unwrap())
         .collect();
-    let solved = dpana::alternation::solve(problem, &Settings::default()).unwrap();
-    let outcome = Outcome {
-        verdict: Judge::new(problem).measure(&reaction),
-        reaction,
-        ..solved
-    };
+    let mut outcome = dpana::alternation::solve(problem, &Settings::default()).unwrap();
+    outcome.verdict = Judge::new(problem).measure(&reaction);
+    outcome.reaction = reaction;
     let none = kkt::Worst {
         value: 0.0,
         scaled: 0.0,
@@ -90,6 +86,7 @@ fn oscillation(cells: [usize; 3], pressure: impl Fn([f64; 2], [i64; 2]) -> f64) 
         departure: none,
         fits: &[],
         stages: &StageWork::default(),
+        ranks: &[],
         origins: &[],
         step: None,
         notes: &[],

@@ -325,20 +325,25 @@ fn tables_drive_forces_and_motions_and_the_ledger_closes() {
     assert!((normal[1] / 1e-3 - 1.0).abs() < 1e-9 && (normal[1] / normal[0] - 2.0).abs() < 1e-9);
 }
 
-#[test]
-fn a_ball_in_space_sinks_under_a_force_as_far_as_it_is_moved() {
-    // A quarter of a block; Hertz within the mesh, four cells per radius of contact.
-    let hertz = HertzSphere::new(1e-3, 10.0, MODULUS).unwrap();
-    let fine = hertz.contact_radius / 4.0;
+/// A quarter of a block with cells of `fine` around the origin, seven along each axis and then growing.
+fn quarter(fine: f64) -> Mesh {
     let mut lines = vec![0.0];
     let mut size = fine;
-    while lines.len() < 11 {
+    while lines.len() < 14 {
         lines.push(lines[lines.len() - 1] + size);
-        size *= if lines.len() > 6 { 2.0 } else { 1.0 };
+        size *= if lines.len() > 7 { 2.0 } else { 1.0 };
     }
     let depth: Vec<f64> = falling(&lines);
     let mesh = box_mesh(&lines, &lines, &depth, CellKind::Hex8).unwrap();
-    let ball = json!({"sphere": {"center": [0, 0, 10], "radius": 10}});
+    mesh.with_surface("across_x", |[x, _, _]| x == 0.0)
+        .and_then(|mesh| mesh.with_surface("across_y", |[_, y, _]| y == 0.0))
+        .and_then(|mesh| mesh.with_surface("base", |[_, _, z]| z == depth[0]))
+        .and_then(|mesh| mesh.with_surface("face", |[_, _, z]| z == 0.0))
+        .unwrap()
+}
+
+/// Four times the force on a rigid surface that is moved into it; the same force moves it as far.
+fn in_space(surface: &Value, depth: f64, mesh: &Mesh) -> (f64, Report) {
     let mut value = json!({
         "bodies": [{
             "name": "block", "mesh": {"file": "given in code"},
@@ -349,26 +354,87 @@ fn a_ball_in_space_sinks_under_a_force_as_far_as_it_is_moved() {
                 {"group": "across_y", "displacement": [null, 0, null]}
             ]
         }],
-        "rigid_bodies": [{"name": "ball", "surfaces": [ball], "displacement": [0, 0, -hertz.approach]}],
-        "contacts": [{"group": "face", "friction": 0, "rigid_body": "ball"}]
+        "rigid_bodies": [{"name": "indenter", "surfaces": [surface], "displacement": [0, 0, -depth]}],
+        "contacts": [{"group": "face", "friction": 0, "rigid_body": "indenter"}]
     });
-    let mesh = mesh
-        .with_surface("across_x", |[x, _, _]| x == 0.0)
-        .and_then(|mesh| mesh.with_surface("across_y", |[_, y, _]| y == 0.0))
-        .and_then(|mesh| mesh.with_surface("base", |[_, _, z]| z == depth[0]))
-        .and_then(|mesh| mesh.with_surface("face", |[_, _, z]| z == 0.0))
-        .unwrap();
-    let moved = report(&value, &mesh);
+    let moved = report(&value, mesh);
     let force = moved.rigid_bodies[0].contact.force[2];
-    assert!(
-        (4.0 * force / hertz.load - 1.0).abs() < 0.1,
-        "{force} {hertz:?}"
-    );
     value["rigid_bodies"][0]["displacement"] = json!([0, 0, null]);
     value["rigid_bodies"][0]["force"] = json!([0, 0, -force]);
-    let pushed = report(&value, &mesh);
+    let pushed = report(&value, mesh);
     let sunk = pushed.rigid_bodies[0].displacement[2];
-    assert!((sunk / -hertz.approach - 1.0).abs() < 1e-9, "{sunk}");
+    assert!((sunk / -depth - 1.0).abs() < 1e-9, "{surface} {sunk}");
+    (4.0 * force, pushed)
+}
+
+#[test]
+fn a_ball_in_space_sinks_under_a_force_as_far_as_it_is_moved() {
+    // Hertz within the mesh, four cells per radius of contact.
+    let hertz = HertzSphere::new(1e-3, 10.0, MODULUS).unwrap();
+    let mesh = quarter(hertz.contact_radius / 4.0);
+    let ball = json!({"sphere": {"center": [0, 0, 10], "radius": 10}});
+    let (force, _) = in_space(&ball, hertz.approach, &mesh);
+    assert!((force / hertz.load - 1.0).abs() < 0.1, "{force} {hertz:?}");
+}
+
+#[test]
+fn a_cone_in_space_sinks_as_sneddon_says() {
+    // P = 2 E* d² / (π s), a = 2 d / (π s); four cells per radius of contact.
+    let (slope, depth) = (0.01_f64, 0.006);
+    let radius = 2.0 * depth / (std::f64::consts::PI * slope);
+    let half_angle = 90.0 - slope.atan().to_degrees();
+    let cone = json!({"cone": {"apex": [0, 0, 0], "axis": [0, 0, -1], "half_angle": half_angle}});
+    let (force, _) = in_space(&cone, depth, &quarter(radius / 4.0));
+    let exact = 2.0 * MODULUS * depth * depth / (std::f64::consts::PI * slope);
+    assert!((force / exact - 1.0).abs() < 0.1, "{force} {exact}");
+}
+
+#[test]
+fn a_round_punch_in_space_sinks_as_boussinesq_says() {
+    // Its edge crosses cells of a quarter of its radius.
+    let punch = json!({"punch": {"center": [0, 0, 0], "axis": [0, 0, -1], "radius": 1}});
+    let (force, pushed) = in_space(&punch, 1e-3, &quarter(0.25));
+    let exact = FlatRoundPunch::new(force, 1.0, MODULUS).unwrap();
+    assert!(
+        (exact.approach / 1e-3 - 1.0).abs() < 0.1,
+        "{}",
+        exact.approach
+    );
+    let contacts = pushed.contacts.iter();
+    let mut pressed = contacts.filter(|contact| contact.pressure.is_some_and(|p| p > 0.0));
+    assert!(pressed.all(|contact| contact.position[0].hypot(contact.position[1]) <= 1.0 + 1e-12));
+}
+
+#[test]
+fn a_punch_with_a_rounded_edge_sinks_as_sneddons_integrals_say() {
+    // Flat up to b, then of radius R (Ciavarella, Int. J. Solids Struct. 36 (1999) 4149): of r = a sin t,
+    // d = a ∫ f'(r) dt, P = 2 E* a² ∫ sin² t f'(r) dt, f' = (r − b)/R, over r > b (Sneddon 1965).
+    let (flat, edge, reach) = (0.5_f64, 100.0, 0.7);
+    let start = (flat / reach).asin();
+    let steps = 2000;
+    let step = (std::f64::consts::FRAC_PI_2 - start) / f64::from(steps);
+    let (mut depth, mut load) = (0.0, 0.0);
+    for k in 0..steps {
+        let sin = (start + (f64::from(k) + 0.5) * step).sin();
+        let slope = (reach * sin - flat) / edge;
+        depth += reach * slope * step;
+        load += 2.0 * MODULUS * (reach * sin).powi(2) * slope * step;
+    }
+    let lines = growing(0.02, 0.8, 300.0);
+    let mesh = rectangle(&lines, &falling(&lines), CellKind::Quad4).unwrap();
+    let punch = json!({
+        "punch": {"center": [0, 0], "axis": [0, -1], "radius": flat + edge, "edge": edge}
+    });
+    let (force, pushed) = round_trip(&punch, depth, &mesh);
+    assert!((force / load - 1.0).abs() < 0.02, "{force} {load}");
+    let contacts = pushed
+        .contacts
+        .iter()
+        .filter(|contact| contact.force[1] != 0.0);
+    let last = contacts
+        .map(|contact| contact.position[0])
+        .fold(0.0, f64::max);
+    assert!((last - reach).abs() < 0.04, "{last}");
 }
 
 #[test]
@@ -552,4 +618,82 @@ fn a_floor_of_triangles_or_a_profile_is_a_plane() {
             }
         }
     }
+}
+
+#[test]
+fn what_is_given_to_a_rigid_body_changes_the_totals_as_differences_say() {
+    // Pressed in by a force and tilted by a moment, or moved and turned; drawn aside in both cases.
+    let lines = growing(0.1, 0.3, 1.0);
+    let mesh = rectangle(&lines, &falling(&lines), CellKind::Quad4).unwrap();
+    let ball = json!({"circle": {"center": [0.5, 2], "radius": 2}});
+    let free = json!({"displacement": [1e-3, null], "rotation": [null], "force": [0, -0.03], "moment": [0.001]});
+    let given = json!({"displacement": [1e-3, -5e-3], "rotation": [2e-3]});
+    for (moves, friction) in [(&free, 0.3), (&given, 0.3), (&given, 0.0), (&free, 0.0)] {
+        let mut scene = scene("plane_strain", &ball, moves, friction);
+        scene["rigid_bodies"][0]["reference"] = json!([0.5, 0]);
+        let solve = |scene: &Value| {
+            let mut scene = scene.clone();
+            scene["settings"] = json!({"tolerance": 1e-13});
+            solve(&with_meshes(&scene, vec![mesh.clone()])).unwrap()
+        };
+        let all = solve(&scene).sensitivities().unwrap().unwrap();
+        let given = moves.as_object().unwrap();
+        let places = given.iter().flat_map(|(key, values)| {
+            let values = values.as_array().unwrap().iter().enumerate();
+            let stated =
+                values.filter(|(_, value)| value.as_f64().is_some_and(|value| value != 0.0));
+            stated.map(move |(entry, _)| (key.as_str(), entry))
+        });
+        let mut compared = 0;
+        for (key, entry) in places {
+            let name = format!("rigid_bodies[0].{key}[{entry}]");
+            let found = all.iter().find(|one| one.parameter == name).unwrap();
+            let at = |factor: f64| {
+                let mut moved = scene.clone();
+                let number = moved["rigid_bodies"][0][key][entry].as_f64().unwrap();
+                moved["rigid_bodies"][0][key][entry] = json!(number * factor);
+                let mut table = dpana::report::Table::default();
+                table.push(&[], &solve(&moved).report().unwrap());
+                table
+            };
+            let (below, above) = (at(1.0 - 1e-5), at(1.0 + 1e-5));
+            for of in [
+                "normal",
+                "friction_x",
+                "contact_force_y",
+                "peak_pressure",
+                "largest_slip",
+            ] {
+                let [low, high] = [&below, &above].map(|table| table.column(of).unwrap()[0]);
+                let difference = (high - low) / 2e-5;
+                let off = (found.of(of).unwrap() - difference).abs();
+                let rounding = 1e-7 * low.abs() + 1e-12;
+                assert!(
+                    off <= 1e-6 * difference.abs() + rounding,
+                    "{friction}: d({of})/d({name}) = {} and {difference}",
+                    found.of(of).unwrap()
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared >= 10, "{friction} {moves}");
+    }
+}
+
+#[test]
+fn a_ball_stiffens_as_hertz_says() {
+    // P = 4/3 E* √R δ^(3/2): dP/dδ = 3/2 P/δ = 2 E* a. Between two nodes the zone stays as it is, half a ring off at most.
+    let hertz = HertzSphere::new(1e-3, 10.0, MODULUS).unwrap();
+    let fine = hertz.contact_radius / 16.0;
+    let lines = growing(fine, 20.0 * fine, 400.0 * hertz.contact_radius);
+    let mesh = rectangle(&lines, &falling(&lines), CellKind::Quad4).unwrap();
+    let ball = json!({"circle": {"center": [0, 10], "radius": 10}});
+    let moved = json!({"displacement": [0, -hertz.approach]});
+    let scene = scene("axisymmetric", &ball, &moved, 0.0);
+    let (solution, report) = certified(&with_meshes(&scene, vec![mesh]));
+    let name = "rigid_bodies[0].displacement[1]";
+    let found = solution.sensitivity(name).unwrap().unwrap();
+    // Per factor of δ.
+    let rate = found.of("normal").unwrap() / report.totals.normal;
+    assert!((rate / 1.5 - 1.0).abs() < 0.5 / 16.0, "{rate}");
 }

@@ -255,3 +255,37 @@ fn loads_that_make_no_sense_are_refused_by_place() {
         "{found}"
     );
 }
+
+#[test]
+fn a_block_under_water_is_pressed_up_or_down_by_its_weight_less_that_of_the_water() {
+    // Archimedes: g (ρ − ρ_w) V, whatever the depth of the water.
+    let (gravity, water) = (10.0, 1.0);
+    let under = |density: f64, depth: f64| {
+        let pressure =
+            json!({"value": water * gravity * depth, "gradient": [0, 0, -water * gravity]});
+        let sides = ["left", "right", "front", "back", "bottom", "top"];
+        let floor = |z: f64, up: f64| json!({"plane": {"point": [0, 0, z], "normal": [0, 0, up]}});
+        read(&json!({
+            "bodies": [{
+                "mesh": {"box": {"x": [0, 2], "y": [0, 1], "z": [0, 1.5], "cells": [3, 2, 3]}},
+                "materials": [{"young": 1e5, "poisson": 0.3, "density": density}],
+                "loads": [{"gravity": [0, 0, -gravity]}, {"pressure": pressure, "group": sides}]
+            }],
+            "contacts": [
+                {"group": "bottom", "friction": 0.3, "obstacle": floor(0.0, 1.0)},
+                {"group": "top", "friction": 0.3, "obstacle": floor(1.5, -1.0), "gap": 1e-3}
+            ]
+        }))
+    };
+    for (density, depth) in [(0.4, 3.0), (0.4, 30.0), (2.5, 3.0)] {
+        let (_, report) = certified(&under(density, depth));
+        let rises = 3.0 * gravity * (water - density);
+        let [down, up] = [0, 1].map(|pair| report.totals.pairs[pair].totals.normal);
+        let expected = [(-rises).max(0.0), rises.max(0.0)];
+        assert!(
+            (down - expected[0]).abs() < 1e-9 * depth,
+            "{down} {expected:?}"
+        );
+        assert!((up - expected[1]).abs() < 1e-9 * depth, "{up} {expected:?}");
+    }
+}

@@ -2,8 +2,10 @@
 
 #![allow(clippy::unwrap_used)]
 
+mod bolts;
 mod cells;
 mod gaps;
+mod group_lists;
 mod heat;
 mod loads;
 mod local_supports;

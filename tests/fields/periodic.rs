@@ -182,3 +182,38 @@ fn a_row_of_rollers_carries_its_load_below_the_middle_of_each() {
     assert!((y / 1000.0 - 1.0).abs() < 1e-9 && x.abs() < 1e-6, "{x} {y}");
     assert!((report.totals.moment[0] / 7000.0 - 1.0).abs() < 1e-6);
 }
+
+#[test]
+fn two_layers_that_repeat_meet_across_their_seam() {
+    // A wave on the lower layer, shifted so that its crest is at the seam, is one whose crest is in the middle:
+    // the same force, and as many contacts pressed, on meshes that match and on those that do not.
+    let layers = |shift: f64, cells: [usize; 2]| {
+        let layer = |name: &str, low: f64, cells: usize, wave: f64| {
+            let lines = |a: f64, b: f64, cells: usize| graded(a, b, cells, 1.0).unwrap();
+            let xs = lines(0.0, 1.0, cells);
+            let mut mesh = rectangle(&xs, &lines(low, low + 1.0, cells), CellKind::Quad4).unwrap();
+            for x in mesh.nodes.iter_mut().filter(|x| x[1] == low + 1.0) {
+                x[1] += wave * (std::f64::consts::TAU * (x[0] - shift)).cos();
+            }
+            body(name, mesh, 1000.0, 0.3).with_periodic(ScenePeriodic::translated(
+                "left",
+                "right",
+                &[1.0, 0.0],
+            ))
+        };
+        let lower = layer("lower", 0.0, cells[0], 1e-3)
+            .with_support(SceneSupport::of("bottom", &[Some(0.0); 2]));
+        let upper = layer("upper", 1.002, cells[1], 0.0)
+            .with_support(SceneSupport::of("top", &[Some(0.0), Some(-4e-3)]));
+        let pair = SceneContact::between(["lower", "top"], ["upper", "bottom"], 0.3);
+        certified(&scene(vec![lower, upper], vec![pair])).1
+    };
+    for cells in [[16, 16], [16, 12], [12, 20]] {
+        let [seam, middle] = [0.0, 0.5].map(|shift| layers(shift, cells));
+        let pressed = |report: &Report| report.totals.contact_area;
+        let (a, b) = (seam.totals.normal, middle.totals.normal);
+        assert!(a > 0.0 && (a / b - 1.0).abs() < 0.02, "{cells:?} {a} {b}");
+        let (a, b) = (pressed(&seam), pressed(&middle));
+        assert!((a - b).abs() < 0.15, "{cells:?} {a} {b}");
+    }
+}

@@ -13,10 +13,7 @@ fn agree(problem: &HalfSpaceProblem) -> HalfSpaceCertificate {
     let free_of_matrix = problem.solve_to(1e-12).unwrap();
     assert_eq!(free_of_matrix.status, HalfSpaceStatus::Certified);
     let dense = problem.contact_problem().unwrap().dense().unwrap();
-    let settings = Settings {
-        tolerance: 1e-12,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_tolerance(1e-12);
     let with_matrix = solve(&dense, &settings).unwrap();
     assert_eq!(with_matrix.status, Status::Certified);
     let expected = &with_matrix.reaction;

@@ -221,6 +221,26 @@ fn friction_up_to_ten_is_solved_under_a_shift() {
 }
 
 #[test]
+fn friction_up_to_ten_is_solved_on_rough_surfaces() {
+    // μ|β| = 2.9: half-steps in turn part from the solution, and the coefficient grows to what it is.
+    for (mu, drag) in [
+        (3.0, Drag::Shift([1.0, 0.0])),
+        (10.0, Drag::Shift([5e-3, 0.0])),
+        (10.0, Drag::Force([0.35 * 10.0 * 0.02 / 0.91, 0.0])),
+    ] {
+        let problem = rough(1.0, 1.0, 0.02).with_friction(&[mu]).unwrap();
+        let outcome = problem.dragged(drag).unwrap().solve().unwrap();
+        let kinds = outcome.certificate;
+        assert_eq!(
+            outcome.status,
+            HalfSpaceStatus::Certified,
+            "{mu} {drag:?} {kinds:?}"
+        );
+        assert!(kinds.slip > 20, "{kinds:?}");
+    }
+}
+
+#[test]
 fn what_is_shifted_or_mirrored_gives_the_same_shifted_or_mirrored() {
     let space = half_space([24, 20], [1.0, 0.9], Surroundings::Periodic, RUBBER);
     let surface = SelfAffine {

@@ -224,6 +224,13 @@ fn the_command_line_writes_what_numpy_and_vtk_read() {
         &["half-space", "ball.json", "--vti", "nowhere/a.vti"],
     );
     assert_eq!(refused.status.code(), Some(2));
+    // What has no mesh is told where to go.
+    for command in ["solve", "limit", "check"] {
+        let sent = dpana(&folder, &[command, "ball.json"]);
+        let said = String::from_utf8(sent.stderr).unwrap();
+        assert_eq!(sent.status.code(), Some(2), "{said}");
+        assert!(said.contains("dpana half-space ball.json"), "{said}");
+    }
 }
 
 #[test]

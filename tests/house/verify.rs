@@ -17,7 +17,8 @@ fn dpana(arguments: &[&str]) -> Output {
 
 #[test]
 fn the_quick_gallery_passes_and_its_report_holds_every_number() {
-    let output = dpana(&["verify", "--quick", "--report", "quick.json"]);
+    let files = ["--report", "quick.json", "--page", "quick.html"];
+    let output = dpana(&[["verify", "--quick"].as_slice(), &files].concat());
     let said = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(0), "{said}");
     assert!(said.contains("14 of 14 scenes pass"), "{said}");
@@ -29,7 +30,13 @@ fn the_quick_gallery_passes_and_its_report_holds_every_number() {
         (&report["quick"], &report["passed"]),
         (&true.into(), &true.into())
     );
+    let page = Path::new(env!("CARGO_TARGET_TMPDIR")).join("quick.html");
+    let page = fs::read_to_string(page).unwrap();
+    // Seven plane scenes are drawn; what a mesh changes is drawn against its size.
+    assert!(page.matches("On a coarse mesh").count() == 7 && page.matches("<svg").count() >= 7 + 9);
     for scene in report["scenes"].as_array().unwrap() {
+        let name = scene["name"].as_str().unwrap();
+        assert!(page.contains(name) || name.contains(['&', '<']), "{name}");
         for quantity in scene["quantities"].as_array().unwrap() {
             let ladder = quantity["ladder"].as_array().unwrap();
             assert!(ladder.len() >= 2, "{quantity}");

@@ -158,7 +158,7 @@ fn names_of_nothing_are_refused_with_the_nearest_known_one() {
     let against = |body: Option<&str>, group: &str| {
         Some(SceneSurface {
             body: body.map(str::to_owned),
-            group: group.to_owned(),
+            group: group.into(),
         })
     };
     let error = with(|pair| pair.against.as_mut().unwrap().body = Some("lover".into()));

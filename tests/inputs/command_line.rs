@@ -48,6 +48,25 @@ fn a_sound_scene_is_described_and_a_floating_one_named() {
     );
 }
 
+#[cfg(not(feature = "mumps"))]
+#[test]
+fn an_engine_that_was_not_built_in_is_named_with_what_it_needs() {
+    let folder = folder("engine");
+    fs::write(folder.join("scene.json"), scene(PRESSED)).unwrap();
+    let (code, said) = refused(&folder, &["solve", "scene.json", "--engine", "mumps"]);
+    assert_eq!(code, Some(2));
+    for part in [
+        "without the feature `mumps`",
+        "--features mumps",
+        "libmumps-dev",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let (code, said) = refused(&folder, &["solve", "scene.json", "--engine", "pardiso"]);
+    assert_eq!(code, Some(2));
+    assert!(said.contains("faer, mumps"), "{said}");
+}
+
 #[test]
 fn the_schema_is_json_and_describes_scenes() {
     let output = dpana(&folder("schema"), &["schema"]);

@@ -21,11 +21,10 @@ fn refusal(text: &str, own: &str, against: Option<&str>) -> String {
     let mesh = gmsh::parse(text, "part.msh").unwrap();
     let pair = match against {
         Some(against) => contact(["part", own], ["part", against], 0.3),
-        None => SceneContact {
-            against: None,
-            obstacle: Some(SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0])),
-            ..contact(["part", own], ["part", own], 0.3)
-        },
+        None => {
+            let floor = SceneObstacle::plane(&[0.0, 0.0], &[0.0, 1.0]);
+            SceneContact::on(floor, own, 0.3).of("part")
+        }
     };
     let scene = scene(vec![body("part", mesh, 1000.0, 0.3)], vec![pair]);
     solve(&scene).unwrap_err().to_string()
@@ -59,7 +58,7 @@ fn bodies_that_share_the_nodes_between_them_are_told_to_have_their_own() {
     says(
         &said,
         &[
-            "contacts[0].against.group",
+            "contacts[0].group",
             "[1, 4]",
             "belongs to 2 cells",
             "nodes of its own",

@@ -213,3 +213,23 @@ fn two_hundred_thousand_facets_open_in_three_seconds_and_turn_fluently() {
     assert!(found["frame"].as_f64().unwrap() < 200.0, "{found}");
     assert!(found["pick"].as_f64().unwrap() < 100.0, "{found}");
 }
+
+#[test]
+#[ignore = "slow: run in release"]
+fn the_verification_manual_opens_and_shows_every_scene() {
+    let folder = folder("manual");
+    let page = folder.join("manual.html");
+    let made = dpana(&folder, &["verify", "--quick", "--page", "manual.html"]);
+    assert_eq!(made.status.code(), Some(0), "{made:?}");
+    let looks = "<script>const all = what => [...document.querySelectorAll(what)];\
+        const wide = part => part.getBoundingClientRect().width > 200;\
+        document.title = JSON.stringify([all('section').length, all('section svg').filter(wide).length,\
+        all('section table').filter(wide).length, all('ol a').filter(a => document.querySelector(a.hash)).length]);\
+        </script>";
+    let text = fs::read_to_string(&page).unwrap();
+    let drawn = text.matches("<svg").count();
+    fs::write(&page, text + looks).unwrap();
+    let shown = printed(&page);
+    let expected = format!("<title>[14,{drawn},14,14]</title>");
+    assert!(shown.contains(&expected), "{expected}: {}", &shown[..400]);
+}

@@ -4,8 +4,9 @@ use std::fs;
 use std::path::Path;
 
 use dpana::report::Page;
+use dpana::scene::SceneSupport;
 use dpana::{Scene, solve};
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::program::{dpana, folder};
 use crate::samples::{block, elements, integers, page_of, reals, strip};
@@ -183,4 +184,45 @@ fn a_page_that_cannot_be_written_is_refused_before_the_solve() {
         &["solve", "block.json", "--page", "a.html", "--svg", "a.html"],
     );
     assert_eq!(both.status.code(), Some(2));
+}
+
+#[test]
+fn every_shape_of_an_obstacle_is_drawn() {
+    let up = json!([0, 0, 1]);
+    let shapes = [
+        json!({"cone": {"apex": [1, 1, 0], "axis": up, "half_angle": 85}}),
+        json!({"paraboloid": {"apex": [1, 1, 0], "axis": up, "radius": 50}}),
+        json!({"punch": {"center": [1, 1, 0], "axis": up, "radius": 5, "edge": 0.5}}),
+        json!({"ellipsoid": {"center": [1, 1, -20], "radii": [30, 40, 20]}}),
+        json!({"bore": {"center": [1, 1, 60], "axis": [1, 0, 0], "radius": 60}}),
+    ];
+    for (at, shape) in shapes.into_iter().enumerate() {
+        let mut scene = block("hex8");
+        // A face that the obstacle is askew to is held nowhere near it.
+        scene["bodies"][0]["supports"] = json!([{"group": "top", "displacement": [0, 0, 0]}]);
+        scene["bodies"][0]["loads"] = json!([]);
+        scene.as_object_mut().unwrap().remove("steps");
+        scene["contacts"][0]["obstacle"] = shape.clone();
+        let scene = Scene::from_json(&scene.to_string(), "").unwrap();
+        let path = page_of(&scene, &folder(&format!("page_shape_{at}")));
+        let drawn = &elements(&path, "scene")[0]["pairs"][0]["obstacle"]["rows"];
+        assert!(drawn.is_array(), "{shape}");
+        let rows = drawn.as_array().unwrap();
+        assert!(rows.len() > 1, "{shape}");
+        // The apex, or the line it lies on, 1 below the middle of the block.
+        let points = rows.iter().flat_map(|row| row.as_array().unwrap());
+        let heights = points.map(|point| point[2].as_f64().unwrap());
+        let nearest = heights.fold(f64::INFINITY, |least, z| least.min((z + 1.0).abs()));
+        assert!(nearest < 1e-5, "{shape} {nearest}");
+    }
+    let mut flat = strip();
+    flat.bodies[0].supports = vec![SceneSupport::of("top", &[Some(0.0); 2])];
+    flat.bodies[0].loads.clear();
+    flat.contacts[0].obstacle = Some(
+        serde_json::from_value(json!({"ellipsoid": {"center": [1, -3], "radii": [9, 3]}})).unwrap(),
+    );
+    let path = page_of(&flat, &folder("page_shape_flat"));
+    let drawn = &elements(&path, "scene")[0]["pairs"][0]["obstacle"]["rows"];
+    assert_eq!(drawn.as_array().map(Vec::len), Some(1));
+    assert!(drawn[0].as_array().unwrap().len() > 90);
 }

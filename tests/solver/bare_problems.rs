@@ -22,10 +22,7 @@ const ACCURACY: f64 = 1e-8;
 
 fn run(bare: &BareProblem) -> (ContactProblem, Outcome) {
     let problem = bare.to_problem().unwrap();
-    let settings = Settings {
-        tolerance: ACCURACY,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_tolerance(ACCURACY);
     let outcome = solve(&problem, &settings).unwrap();
     (problem, outcome)
 }
@@ -135,11 +132,9 @@ fn one_contact_opens_as_by_hand() {
 fn the_three_loops_agree() {
     let problem = load("fem_static_N4_mu0.8.json").to_problem().unwrap();
     let run = |variant: Variant, tolerance, max_sweeps| {
-        let settings = Settings {
-            tolerance,
-            max_sweeps,
-            ..Settings::default()
-        };
+        let settings = Settings::default()
+            .with_tolerance(tolerance)
+            .with_max_sweeps(max_sweeps);
         let outcome = variant.solve(&problem, &settings).unwrap();
         assert_eq!(outcome.status, Status::Certified, "{variant:?}");
         outcome.reaction

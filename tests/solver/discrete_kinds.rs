@@ -23,10 +23,7 @@ fn load(name: &str) -> BareProblem {
 }
 
 fn solved(bare: &BareProblem, tolerance: f64) -> Outcome {
-    let settings = Settings {
-        tolerance,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_tolerance(tolerance);
     solve(&bare.to_problem().unwrap(), &settings).unwrap()
 }
 

@@ -111,10 +111,7 @@ fn a_slender_body_is_certified_with_deep_sums() {
 
 #[test]
 fn sweeps_that_run_out_are_named() {
-    let settings = Settings {
-        max_sweeps: 2,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_max_sweeps(2);
     let outcome = Variant::PLAIN
         .solve(&square_problem(8, 0.2, 1.0), &settings)
         .unwrap();
@@ -126,10 +123,7 @@ fn sweeps_that_run_out_are_named() {
 
 #[test]
 fn a_tolerance_below_round_off_ends_soon_and_says_so() {
-    let settings = Settings {
-        tolerance: 1e-15,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_tolerance(1e-15);
     let outcome = solve(&square_problem(48, 0.2, 1.0), &settings).unwrap();
     let Some(Shortfall::RoundOff { floor }) = outcome.shortfall else {
         unreachable!("{:?}", outcome.shortfall);

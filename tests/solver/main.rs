@@ -18,3 +18,4 @@ mod random_problems;
 mod random_stacks;
 mod rates;
 mod reasons;
+mod single_precision;

@@ -27,10 +27,7 @@ impl Numbers {
     }
 
     pub(crate) fn solve_to(&self, tolerance: f64) -> (ContactProblem, Outcome) {
-        let settings = Settings {
-            tolerance,
-            ..Settings::default()
-        };
+        let settings = Settings::default().with_tolerance(tolerance);
         let tangents = vec![self.tangents; self.gap.len()];
         let operator = Operator::from_compliance(self.compliance.clone()).unwrap();
         let (friction, gap, free) = (self.friction.clone(), self.gap.clone(), self.free.clone());

@@ -25,10 +25,7 @@ fn square(poisson: f64, friction: f64) -> Condensed {
 }
 
 fn plain(problem: &ContactProblem, max_sweeps: usize) -> Outcome {
-    let settings = Settings {
-        max_sweeps,
-        ..Settings::default()
-    };
+    let settings = Settings::default().with_max_sweeps(max_sweeps);
     Variant::PLAIN.solve(problem, &settings).unwrap()
 }
 

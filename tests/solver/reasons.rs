@@ -68,10 +68,7 @@ fn sweeps_that_run_out_are_mended_by_more_of_them() {
     let mechanics = square::scene(8, 0.2, 1.0).mechanics().unwrap();
     let condensed = Condensed::new(&mechanics.bodies, &mechanics.contacts).unwrap();
     let with = |max_sweeps| {
-        let settings = Settings {
-            max_sweeps,
-            ..Settings::default()
-        };
+        let settings = Settings::default().with_max_sweeps(max_sweeps);
         Variant::PLAIN
             .solve(condensed.problem(), &settings)
             .unwrap()

@@ -18,11 +18,10 @@ pub(crate) fn block(kind: CellKind, low: [f64; 3], high: [f64; 3], cells: [usize
 
 /// A body of one material, without supports; in 2D in plane strain.
 pub(crate) fn body(name: &str, mesh: Mesh, young: f64, poisson: f64) -> SceneBody {
-    SceneBody {
-        model: (mesh.dimension == 2).then_some(SceneModel::PlaneStrain),
-        materials: vec![SceneMaterial::new(young, poisson)],
-        ..SceneBody::new(name, mesh)
-    }
+    let model = (mesh.dimension == 2).then_some(SceneModel::PlaneStrain);
+    let mut body = SceneBody::new(name, mesh).with_material(SceneMaterial::new(young, poisson));
+    body.model = model;
+    body
 }
 
 /// The body with one component of a group's displacement given.
@@ -31,7 +30,7 @@ pub(crate) fn hold(mut body: SceneBody, group: &str, axis: usize, value: f64) ->
     let mut displacement = vec![None; axes];
     displacement[axis] = Some(value);
     body.supports.push(SceneSupport::Group {
-        group: group.to_owned(),
+        group: group.into(),
         displacement,
     });
     body
@@ -43,11 +42,7 @@ pub(crate) fn contact(own: [&str; 2], other: [&str; 2], friction: f64) -> SceneC
 }
 
 pub(crate) fn scene(bodies: Vec<SceneBody>, contacts: Vec<SceneContact>) -> Scene {
-    Scene {
-        bodies,
-        contacts,
-        ..Scene::default()
-    }
+    Scene::new(bodies, contacts)
 }
 
 /// Solves a scene that must end certified.

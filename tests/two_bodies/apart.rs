@@ -13,13 +13,7 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
     let mesh = rectangle(&side, &side, CellKind::Quad4).unwrap();
     let hold = |place: &str, displacement, held: fn(&[f64; 3]) -> bool| {
         let nodes = mesh.nodes.iter().enumerate().filter(|(_, x)| held(x));
-        Support {
-            place: place.to_owned(),
-            nodes: nodes.map(|(node, _)| node).collect(),
-            displacement,
-            offsets: Vec::new(),
-            axes: Vec::new(),
-        }
+        Support::new(place, nodes.map(|(node, _)| node).collect(), displacement)
     };
     let supports = vec![
         hold("supports[0]", [Some(0.0), None, None], |x| x[0] == 1.0),
@@ -28,21 +22,14 @@ fn square(name: &str, cells: usize, pressure: f64) -> Body {
         }),
     ];
     let top = facets(&mesh.groups["top"]);
-    Body {
-        name: name.to_owned(),
-        material_of_cell: vec![0; mesh.cell_count()],
-        mesh,
-        model: Model::PlaneStrain,
-        materials: vec![Material::new(1e3, 0.3)],
-        supports,
-        loads: vec![Load::Pressure {
-            facets: top,
-            pressure,
-        }],
-        foundation: vec![],
-        formulation: dpana::body::Formulation::Standard,
-        ties: Vec::new(),
-    }
+    let material = Material::new(1e3, 0.3);
+    let mut body = Body::new(name, mesh, Model::PlaneStrain, vec![material]);
+    body.supports = supports;
+    body.loads = vec![Load::Pressure {
+        facets: top,
+        pressure,
+    }];
+    body
 }
 
 fn facets(group: &Group) -> Vec<Facet> {
@@ -54,20 +41,16 @@ fn facets(group: &Group) -> Vec<Facet> {
 
 /// The bottom of a body on a rough floor.
 fn on_floor(index: usize, body: &Body) -> ContactPair {
-    ContactPair {
-        place: format!("contacts[{index}]"),
-        body: index,
-        facets: facets(&body.mesh.groups["bottom"]),
-        opposite: Opposite::Obstacle(Obstacle::Plane {
+    ContactPair::new(
+        &format!("contacts[{index}]"),
+        index,
+        facets(&body.mesh.groups["bottom"]),
+        Opposite::Obstacle(Obstacle::Plane {
             point: [0.0; 3],
             normal: [0.0, 1.0, 0.0],
         }),
-        friction: 0.3,
-        law: dpana::contact::PairLaw::default(),
-        rounded: true,
-        gap: 0.0,
-        dragged: false,
-    }
+        0.3,
+    )
 }
 
 struct Solved {

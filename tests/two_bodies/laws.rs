@@ -34,7 +34,7 @@ fn loose(law: SceneLaw, traction: [f64; 2]) -> Scene {
     let mut scene = on_floor(law, 1000.0);
     scene.bodies[0].loads.push(SceneLoad::Traction {
         traction: traction.to_vec(),
-        group: "top".to_owned(),
+        group: "top".into(),
     });
     scene
 }
@@ -148,7 +148,7 @@ fn a_tied_cantilever_bends_as_one_of_a_piece() {
     let clamped = |part| hold(hold(part, "left", 0, 0.0), "left", 1, 0.0);
     let load = SceneLoad::Traction {
         traction: vec![0.0, -1.0],
-        group: "right".to_owned(),
+        group: "right".into(),
     };
     let mut whole = clamped(body("whole", mesh(0.0, 6.0, 12), 1e4, 0.3));
     whole.loads.push(load.clone());

@@ -16,6 +16,7 @@ mod fits;
 mod floating;
 mod goodman_coupled;
 mod hertz;
+mod itself;
 mod laws;
 #[cfg(feature = "cli")]
 mod metamorphic;

@@ -253,7 +253,7 @@ fn on_planes(body: SceneBody, planes: &[&str]) -> SceneBody {
 fn press(group: &str, pressure: f64) -> SceneLoad {
     SceneLoad::Pressure {
         pressure,
-        group: group.to_owned(),
+        group: group.into(),
     }
 }
 

@@ -589,3 +589,53 @@ fn a_body_whose_nodes_are_all_held_drags_another_by_friction() {
         }
     }
 }
+
+/// A quadratic surface cut in two within a facet of the other side: where a cover has only its ends to be looked at, both are
+/// in the other body and what lies between is apart, as the mean is neither.
+#[test]
+fn one_interface_told_as_two_contacts_is_certified() {
+    let lines = |[from, to]: [f64; 2], cells| graded(from, to, cells, 1.0).unwrap();
+    let split = |mut mesh: Mesh| {
+        let Group::Facets(all) = mesh.groups["bottom"].clone() else {
+            unreachable!("bottom is a group of facets");
+        };
+        for (name, part) in [("one", &all[..1]), ("rest", &all[1..])] {
+            mesh.groups
+                .insert(name.to_owned(), Group::Facets(part.to_vec()));
+        }
+        mesh
+    };
+    for (kind, [low, high], young, aside) in [
+        (
+            CellKind::Tri3,
+            [[0.1242, 0.8907], [-0.1007, 1.0593]],
+            [56.0, 47e3],
+            -1.1e-3,
+        ),
+        (
+            CellKind::Quad4,
+            [[0.1273, 0.8913], [-0.0187, 0.9683]],
+            [219e3, 8.1],
+            -7.8e-5,
+        ),
+    ] {
+        let forces = [&["bottom"][..], &["one", "rest"]].map(|groups| {
+            let lower = rectangle(&lines(low, 2), &lines([0.0, 0.4], 3), kind).unwrap();
+            let upper = rectangle(&lines(high, 3), &lines([0.4008, 1.0], 3), CellKind::Quad8);
+            let (lower, upper) = (
+                body("lower", lower, young[0], 0.1),
+                body("upper", split(upper.unwrap()), young[1], 0.3),
+            );
+            let lower = hold(hold(lower, "bottom", 0, 0.0), "bottom", 1, 0.0);
+            let upper = hold(hold(upper, "top", 0, aside), "top", 1, -7e-3);
+            let joints = groups
+                .iter()
+                .map(|group| contact(["upper", *group], ["lower", "top"], 0.1));
+            certified(&scene(vec![lower, upper], joints.collect()))
+                .1
+                .totals
+                .normal
+        });
+        assert!((forces[0] / forces[1] - 1.0).abs() < 1e-2, "{forces:?}");
+    }
+}

@@ -244,7 +244,7 @@ impl<'a> JoinedPath<'a> {
         let (joined, beyond) = (self.joined(&at), self.beyond(&at));
         let missing = laws::missing(&laws, |contact| self.local(contact, &at, &beyond)).collect();
         let rate = laws::rows(&laws, |k| joined[k] - at.reaction[k], None).collect();
-        let matrix = Factored::new(&self.matrix(&laws, &unknowns, at.part));
+        let matrix = Factored::new(self.matrix(&laws, &unknowns, at.part));
         self.products += matrix.products() + 2.0 * (self.roots.len() as f64).powi(2);
         Piece {
             at,

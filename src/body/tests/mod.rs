@@ -1,6 +1,7 @@
 //! Bodies that tests share, and tests of whole bodies: locking, rings.
 
 mod bending;
+mod bound;
 mod locking;
 mod oriented;
 mod rings;

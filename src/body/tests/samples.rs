@@ -25,18 +25,7 @@ pub(crate) fn block(kind: CellKind) -> Body {
 
 /// A body of one material, `E = 10 Pa`, with neither supports nor loads.
 pub(crate) fn body(mesh: Mesh, model: Model, poisson: f64) -> Body {
-    Body {
-        name: "block".to_owned(),
-        material_of_cell: vec![0; mesh.cell_count()],
-        mesh,
-        model,
-        materials: vec![Material::new(10.0, poisson)],
-        supports: Vec::new(),
-        loads: Vec::new(),
-        foundation: vec![],
-        formulation: crate::body::Formulation::Standard,
-        ties: Vec::new(),
-    }
+    Body::new("block", mesh, model, vec![Material::new(10.0, poisson)])
 }
 
 /// A support that holds nodes along some axes.
@@ -45,13 +34,7 @@ pub(crate) fn support(nodes: &[usize], axes: &[usize]) -> Support {
     for axis in axes {
         displacement[*axis] = Some(0.0);
     }
-    Support {
-        place: "support".to_owned(),
-        nodes: nodes.to_vec(),
-        displacement,
-        offsets: Vec::new(),
-        axes: Vec::new(),
-    }
+    Support::new("support", nodes.to_vec(), displacement)
 }
 
 /// The same block with every inner corner moved by a fifth of a cell or less, its sides straight.
@@ -107,13 +90,8 @@ pub(crate) fn hold(body: &mut Body, name: &str, axis: usize) {
         .flat_map(|facet| facet.nodes);
     let mut displacement = [None; 3];
     displacement[axis] = Some(0.0);
-    body.supports.push(Support {
-        place: name.to_owned(),
-        nodes: nodes.collect(),
-        displacement,
-        offsets: Vec::new(),
-        axes: Vec::new(),
-    });
+    body.supports
+        .push(Support::new(name, nodes.collect(), displacement));
 }
 
 /// Solves `K u = f` for the components that are not prescribed, by a dense factorisation.

@@ -1,4 +1,5 @@
 //! A lattice on a bed that may touch it, and its dense solution, for tests.
+#![allow(clippy::unwrap_used)]
 
 use faer::Mat;
 use faer::linalg::solvers::Solve;
@@ -7,6 +8,8 @@ use sprs::CsMat;
 use super::lattice::Lattice;
 use crate::condensation::CondensationWork;
 use crate::condensation::condensed_body::CondensedBody;
+use crate::condensation::engine::By;
+use crate::condensation::factor::Precision;
 use crate::condensation::grounding::Grounding;
 use crate::condensation::interface::Interface;
 use crate::condensation::load_case::Given;
@@ -14,7 +17,7 @@ use crate::condensation::supported::SupportedBody;
 use crate::contact::frame::Stance;
 use crate::contact::{ContactNode, ContactSurface};
 use crate::error::Error;
-use crate::problem::ContactProblem;
+use crate::problem::{ContactProblem, Operator};
 
 /// A lattice on a rough bed: contacts at the bottom, supports, a load on every node.
 pub(crate) struct Bed {
@@ -36,7 +39,8 @@ pub(crate) struct CondensedBed {
 impl CondensedBed {
     /// Displacement per degree of freedom under the load and a contact reaction.
     pub(crate) fn recover(&self, reaction: &[f64]) -> Vec<f64> {
-        self.body.recover(&self.interface.forces(reaction), &[])
+        let forces = self.interface.forces(reaction);
+        self.body.recover(&forces, &[]).unwrap()
     }
 }
 
@@ -130,20 +134,20 @@ impl Bed {
             grounding: Grounding::none(),
         };
         let mut work = CondensationWork::default();
-        let (body, of_interface) = supported.condense(&interface, &mut work)?;
+        let by = By::Faer(Precision::Double);
+        let (body, compliance) = supported.condense(&interface, by, &mut work)?;
 
         let tangents: Vec<usize> = self.contacts.iter().map(|c| c.tangents).collect();
         let (count, unknowns) = (tangents.len(), body.action.free_displacement.len());
         let mut free = vec![0.0; unknowns];
         let action = &body.action;
         interface.add_displacement(action, &action.free_displacement, &mut free);
-        let operator = of_interface.operator()?;
         let problem = ContactProblem::new(
             &tangents,
             vec![0.5; count],
             vec![0.0; count],
             free,
-            operator,
+            Operator::from_bodies(compliance)?,
         )?;
         Ok(CondensedBed {
             problem,

@@ -19,6 +19,8 @@
 //! | triangles in space | `triangulated` |
 
 mod cone;
+#[cfg(feature = "cli")]
+mod drawn;
 mod ellipsoid;
 mod paraboloid;
 mod profile;

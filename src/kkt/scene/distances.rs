@@ -122,7 +122,7 @@ pub(super) struct Distances(Vec<Nearby>);
 impl Distances {
     /// - `side`: that carries the contacts, 0 or 1;
     /// - `displacements`: per body and unknown, in metre;
-    /// - `moved`: how the obstacle has moved; `opening`: added to all gaps, in metre.
+    /// - `moved`: how the obstacle, or what is between the sides, has moved; `opening`: added to all gaps, in metre.
     pub(super) fn new(
         meeting: &Meeting,
         side: usize,
@@ -167,12 +167,12 @@ fn approach(
 ) -> f64 {
     let of = |side: usize| match (&sample.places[side], meeting.skins.get(side)) {
         (Some(place), Some(skin)) => displacement(place, skin, displacements),
-        _ => rigid(sample, moved),
+        _ => Vector3::zeros(),
     };
-    (of(1) - of(0)).dot(&sample.towards)
+    (of(1) + rigid(sample, moved) - of(0)).dot(&sample.towards)
 }
 
-/// Displacement of the point of a rigid side that a sample faces.
+/// Displacement of a rigid side, or of what is between the sides, at the point that a sample faces.
 fn rigid(sample: &Sample, moved: RigidMotion) -> Vector3<f64> {
     let faced = sample.places[0]
         .as_ref()

@@ -1,7 +1,7 @@
 //! How the two sides of a pair lie before loading, seen from the meshes alone.
 //!
-//! Samples are the nodes and centres of the facets of both sides, each with the nearest point of the
-//! other side that faces it. A sample that lies beside the other side, or whose nearest point is another
+//! Samples are the nodes and centres of the facets of both sides, and on a facet that the other side covers in part the
+//! middle of those there, each with the nearest point of the other side that faces it. A sample that lies beside the other side, or whose nearest point is another
 //! one that does not face it, is none.
 
 use std::sync::OnceLock;
@@ -67,7 +67,12 @@ impl Meeting {
             (_, [first, second]) => {
                 let there = first.samples().filter_map(|place| meet(place, second));
                 let back = second.samples().filter_map(|place| meet(place, first));
-                there.chain(back.map(Sample::turned)).collect()
+                let mut samples: Vec<Sample> = there.chain(back.map(Sample::turned)).collect();
+                let [own, across] = [0, 1].map(|side| middles(&samples, side, &skins[side]));
+                samples.extend(own.into_iter().filter_map(|place| meet(place, second)));
+                let back = across.into_iter().filter_map(|place| meet(place, first));
+                samples.extend(back.map(Sample::turned));
+                samples
             }
             _ => Vec::new(),
         };
@@ -159,6 +164,26 @@ impl Sample {
             distance: self.distance,
         }
     }
+}
+
+/// The middles of the samples on faces of a side that see the other one at some of their corners only. Where a side ends
+/// within a face on which displacements are quadratic, both ends of the cover are in the other body if the mean is not.
+fn middles(samples: &[Sample], side: usize, skin: &Skin) -> Vec<Place> {
+    let mut met = vec![Vec::new(); skin.faces.len()];
+    for place in samples.iter().filter_map(|of| of.places[side].as_ref()) {
+        met[place.face].push(place.position);
+    }
+    let middle = |(number, met): (usize, &Vec<Vector3<f64>>)| {
+        let face = &skin.faces[number];
+        let near = |a: Vector3<f64>, b: &Vector3<f64>| (a - b).norm() <= ROUNDED * face.size;
+        let unseen = |corner| !met.iter().any(|at| near(corner, at));
+        if met.is_empty() || !face.corners().any(unseen) {
+            return None;
+        }
+        let middle = met.iter().sum::<Vector3<f64>>() / met.len() as f64;
+        skin.foot(middle, None).filter(|foot| foot.face == number)
+    };
+    met.iter().enumerate().filter_map(middle).collect()
 }
 
 /// A place and the obstacle in front of it.

@@ -43,17 +43,7 @@ pub(crate) fn lid_on_box(gap: f64) -> (Vec<Body>, ContactSurface, ContactProblem
 
 /// The lid against the box, and a pair with an obstacle that has no contact.
 pub(crate) fn pairs() -> Vec<ContactPair> {
-    let pair = |opposite| ContactPair {
-        place: "contacts[0]".to_owned(),
-        body: 0,
-        facets: Vec::new(),
-        opposite,
-        friction: 0.5,
-        law: crate::contact::PairLaw::default(),
-        rounded: true,
-        gap: 0.0,
-        dragged: false,
-    };
+    let pair = |opposite| ContactPair::new("contacts[0]", 0, Vec::new(), opposite, 0.5);
     let plane = Obstacle::Plane {
         point: [0.0; 3],
         normal: [0.0, 1.0, 0.0],
@@ -68,16 +58,5 @@ pub(crate) fn pairs() -> Vec<ContactPair> {
 }
 
 fn body(name: &str, nodes: Vec<[f64; 3]>) -> Body {
-    Body {
-        name: name.to_owned(),
-        mesh: Mesh::new(2, nodes),
-        model: Model::PlaneStrain,
-        materials: Vec::new(),
-        material_of_cell: Vec::new(),
-        supports: Vec::new(),
-        loads: Vec::new(),
-        foundation: vec![],
-        formulation: crate::body::Formulation::Standard,
-        ties: Vec::new(),
-    }
+    Body::new(name, Mesh::new(2, nodes), Model::PlaneStrain, Vec::new())
 }

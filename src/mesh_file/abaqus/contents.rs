@@ -326,6 +326,15 @@ impl Contents {
         corners.iter().map(|&at| element.nodes[at]).collect()
     }
 
+    /// The longest edge of a face.
+    pub(crate) fn face_size(&self, side: Side) -> f64 {
+        let corners = self.corners(side);
+        let place = |at: usize| self.positions[corners[at % corners.len()]];
+        let edges = (0..corners.len()).map(|at| (place(at), place(at + 1)));
+        let lengths = edges.map(|(a, b)| (0..3).fold(0.0_f64, |sum, k| sum.hypot(a[k] - b[k])));
+        lengths.fold(0.0, f64::max)
+    }
+
     /// Nodes of the cell's facet on a face.
     pub(crate) fn facet(&self, (cell, face): Side) -> Vec<usize> {
         let element = &self.elements[cell];

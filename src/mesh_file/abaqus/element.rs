@@ -5,8 +5,8 @@
 //! CPE, CPS, CAX 3 4 6 8                      plane strain, plane stress, axisymmetric (x = r, y = z)
 //! ```
 //!
-//! Letters behind the name (R, I, H, M, S) choose how the element is integrated and against what it
-//! locks, which is the solver's own matter.
+//! Letters behind the name (R, H, M, S) choose how the element is integrated and against what it
+//! locks, which is the solver's own matter; I gives those of four and eight corners incompatible modes.
 
 use crate::body::CellKind;
 use crate::mesh_file::elements::Shape;
@@ -33,6 +33,8 @@ pub(crate) struct ElementKind {
     pub(super) nodes: usize,
     /// Where it lives.
     pub(crate) space: Space,
+    /// Whether it has incompatible modes, to bend.
+    pub(crate) bends: bool,
 }
 
 /// The deck's position of every node of the cell, where the two orders differ.
@@ -153,6 +155,7 @@ impl ElementKind {
                 shape: Shape::Cell(cell),
                 nodes: cell.node_count(),
                 space,
+                bends: letters.contains('I') && matches!(cell, CellKind::Hex8 | CellKind::Quad4),
             }),
             false => Err(refusal(name)),
         }
@@ -167,6 +170,7 @@ impl ElementKind {
                 shape,
                 nodes,
                 space: Space::Solid,
+                bends: false,
             }),
             None => Ok(Self {
                 space: Space::Solid,

@@ -203,7 +203,7 @@ class Scene {
     const layers = [];
     this.model.pairs.forEach((pair, index) => {
       if (!pair.obstacle) return;
-      const made = this.model.dimension === 2 ? this.strip(pair.obstacle) : this.patch(pair.obstacle);
+      const made = this.shape(pair.obstacle);
       const motion = look.state.stored.obstacles[index] || [0, 0, 0];
       const positions = made.positions.map((x, i) => x + look.scale * motion[i % 3]);
       const solid = this.model.dimension === 2 ? 1 : 0.35;
@@ -212,6 +212,17 @@ class Scene {
       layers.push({ positions, indices: made.border, lines: true, colour: [120, 126, 133], alpha: 0.9 });
     });
     return layers;
+  }
+
+  /* Rows and triangles are drawn as they come, other shapes near the bodies. */
+  shape(obstacle) {
+    if (obstacle.rows) return grid(obstacle.rows, 8);
+    if (obstacle.triangles) {
+      const edges = obstacle.triangles.flatMap(([a, b, c]) => [a, b, b, c, c, a]);
+      const [indices, border] = [Uint32Array.from(obstacle.triangles.flat()), Uint32Array.from(edges)];
+      return { positions: Float32Array.from(obstacle.points.flat()), indices, border };
+    }
+    return this.model.dimension === 2 ? this.strip(obstacle) : this.patch(obstacle);
   }
 
   /* A plane obstacle's rim, and a tenth of the extent behind it. */

@@ -14,6 +14,7 @@
 
 mod arc;
 mod lattice;
+mod obstacle;
 mod packed;
 mod points;
 mod skin;
@@ -28,6 +29,7 @@ use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
+use self::obstacle::DrawnObstacle;
 use self::skin::{DrawnBody, Skin};
 use self::state::DrawnState;
 use self::surface::{DrawnContacts, DrawnSurface};
@@ -35,7 +37,7 @@ use self::units::Symbols;
 use super::svg::escaped;
 use super::{Report, replace_file};
 use crate::body::{Body, Facet, Model};
-use crate::contact::{ContactPair, Obstacle, Opposite};
+use crate::contact::{ContactPair, Opposite};
 use crate::error::{Error, check_length};
 
 const PAGE: &str = include_str!("page.html");
@@ -109,17 +111,6 @@ struct DrawnPair<'a> {
     place: &'a str,
     #[serde(skip_serializing_if = "Option::is_none")]
     obstacle: Option<DrawnObstacle>,
-}
-
-/// A rigid obstacle: a plane by its normal, a sphere or circle by its radius, a cylinder by both.
-#[derive(Debug, Serialize)]
-struct DrawnObstacle {
-    /// A point of the plane, or the centre, relative to the scene's origin.
-    point: [f64; 3],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    direction: Option<[f64; 3]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    radius: Option<f64>,
 }
 
 impl Page {
@@ -215,6 +206,7 @@ impl<'a> DrawnScene<'a> {
         let report = parts.report;
         let origin = middle(parts.bodies);
         let dimension = report.size.dimension;
+        let reach = 2.0 * farthest(parts.bodies, origin);
         let surface = DrawnSurface::new(&report.contacts, skins, parts.facets, dimension);
         let rings = parts
             .bodies
@@ -224,7 +216,9 @@ impl<'a> DrawnScene<'a> {
         let pairs = parts.pairs.iter().map(|pair| DrawnPair {
             place: &pair.place,
             obstacle: match &pair.opposite {
-                Opposite::Obstacle(obstacle) => DrawnObstacle::new(obstacle, origin),
+                Opposite::Obstacle(obstacle) => {
+                    Some(DrawnObstacle::new(obstacle, (dimension, origin, reach)))
+                }
                 Opposite::Surface { .. } => None,
             },
         });
@@ -249,33 +243,11 @@ impl<'a> DrawnScene<'a> {
     }
 }
 
-impl DrawnObstacle {
-    /// None of shapes that the page does not draw.
-    fn new(obstacle: &Obstacle, origin: [f64; 3]) -> Option<Self> {
-        let relative = |point: &[f64; 3]| [0, 1, 2].map(|axis| point[axis] - origin[axis]);
-        Some(match obstacle {
-            Obstacle::Plane { point, normal } => Self {
-                point: relative(point),
-                direction: Some(*normal),
-                radius: None,
-            },
-            Obstacle::Cylinder {
-                center,
-                axis,
-                radius,
-            } => Self {
-                point: relative(center),
-                direction: Some(*axis),
-                radius: Some(*radius),
-            },
-            Obstacle::Sphere { center, radius } => Self {
-                point: relative(center),
-                direction: None,
-                radius: Some(*radius),
-            },
-            _ => return None,
-        })
-    }
+/// Distance of the farthest node from a point, in metre.
+fn farthest(bodies: &[Body], from: [f64; 3]) -> f64 {
+    let nodes = bodies.iter().flat_map(|body| &body.mesh.nodes);
+    let away = nodes.map(|x| (0..3).fold(0.0, |size, axis| f64::hypot(size, x[axis] - from[axis])));
+    away.fold(0.0, f64::max)
 }
 
 /// Middle of the box around all nodes, in metre: positions far from zero keep their digits.

@@ -171,18 +171,7 @@ mod tests {
     const EVEN: [f64; 3] = [0.0, 1.0, 2.0];
 
     fn skin(mesh: Mesh) -> Skin {
-        Skin::new(&Body {
-            name: String::new(),
-            mesh,
-            model: Model::PlaneStrain,
-            materials: Vec::new(),
-            material_of_cell: Vec::new(),
-            supports: Vec::new(),
-            loads: Vec::new(),
-            foundation: Vec::new(),
-            formulation: crate::body::Formulation::Standard,
-            ties: Vec::new(),
-        })
+        Skin::new(&Body::new("", mesh, Model::PlaneStrain, Vec::new()))
     }
 
     fn count(skin: &Skin) -> usize {

@@ -157,7 +157,7 @@ impl Posed {
         let (problem, outcome, solution) = match self {
             Self::Scene(scene) => {
                 let solution = pipeline::solve(scene)?;
-                let problem = solution.condensed().problem().clone();
+                let problem = solution.precise()?.problem().clone();
                 (problem, solution.outcome().clone(), Some(solution))
             }
             Self::Bare(problem) => {

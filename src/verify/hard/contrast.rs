@@ -22,7 +22,7 @@ fn stacked(contrast: f64, friction: f64, held: bool, pull: f64) -> Result<Scene,
     if held {
         upper = hold(upper, "left", 0, 0.0);
     }
-    let group = "top".to_owned();
+    let group = "top".into();
     let traction = vec![pull, -1.0];
     upper.loads.push(SceneLoad::Traction { traction, group });
     Ok(pair([lower, upper], ["top", "bottom"], friction))

@@ -30,7 +30,7 @@ fn pad(dimension: usize, friction: f64, pull: f64) -> Result<Scene, Error> {
     for (group, axis, force) in [("top", dimension - 1, -PRESSED), ("bottom", 0, pull)] {
         let mut traction = vec![0.0; dimension];
         traction[axis] = force / area;
-        let group = group.to_owned();
+        let group = group.into();
         pad.loads.push(SceneLoad::Traction { traction, group });
     }
     Ok(on(plane(&normal), pad, "bottom", friction))

@@ -26,7 +26,7 @@ fn layer(dimension: usize) -> Result<Scene, Error> {
     pushed[0] = Some(2e-3);
     pushed[dimension - 1] = Some(-5e-3);
     layer.supports.push(SceneSupport::Group {
-        group: "top".to_owned(),
+        group: "top".into(),
         displacement: pushed,
     });
     let mut normal = vec![0.0; dimension];

@@ -27,7 +27,7 @@ fn punch(cells: [usize; 2], contrast: f64, friction: f64) -> Result<Scene, Error
     )?;
     let mut punch = body("punch", punch, elastic(1e9 * contrast, 0.3));
     punch = hold(punch, "top", 0, 0.0);
-    let (group, pressure) = ("top".to_owned(), FORCE);
+    let (group, pressure) = ("top".into(), FORCE);
     punch.loads.push(SceneLoad::Pressure { pressure, group });
     Ok(pair([punch, base], ["bottom", "top"], friction))
 }
@@ -41,7 +41,7 @@ fn beside_a_support(cells: usize, both: bool, friction: f64) -> Result<Scene, Er
         block = hold(block, "right", 1, 0.0);
     }
     for (group, pressure) in [("top", 1e6), ("left", 5e5)] {
-        let group = group.to_owned();
+        let group = group.into();
         block.loads.push(SceneLoad::Pressure { pressure, group });
     }
     Ok(on(plane(&[0.0, 1.0]), block, "bottom", friction))

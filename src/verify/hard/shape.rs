@@ -58,7 +58,7 @@ fn scene(shape: &Shape, friction: f64) -> Result<Scene, Error> {
         displacement: vec![None, Some(0.0)],
     });
     for (group, pressure) in ["left", "top"].into_iter().zip(shape.pressure) {
-        let group = group.to_owned();
+        let group = group.into();
         block.loads.push(SceneLoad::Pressure { pressure, group });
     }
     Ok(on(plane(&[0.0, 1.0]), block, "bottom", friction))

@@ -302,7 +302,7 @@ fn loads_in_parts(mut scene: Scene) -> Changed {
         body.loads = ["one", "rest"]
             .map(|group| SceneLoad::BodyForce {
                 body_force: body_force.clone(),
-                group: Some(group.to_owned()),
+                group: Some(group.into()),
             })
             .into();
     }
@@ -316,9 +316,9 @@ fn whole_skins(mut scene: Scene) -> Changed {
         mesh.groups.insert("skin".to_owned(), skin);
     }
     for contact in &mut scene.contacts {
-        contact.group = "skin".to_owned();
+        contact.group = "skin".into();
         if let Some(other) = &mut contact.against {
-            other.group = "skin".to_owned();
+            other.group = "skin".into();
         }
     }
     Changed::none(scene)
@@ -354,7 +354,7 @@ fn surface_in_parts(mut scene: Scene) -> Changed {
     }
     let parts = |contact: &SceneContact| {
         ["bottom, one", "bottom, rest"].map(|group| SceneContact {
-            group: group.to_owned(),
+            group: group.into(),
             ..contact.clone()
         })
     };

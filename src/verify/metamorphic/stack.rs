@@ -123,10 +123,10 @@ impl Stack {
             .collect();
         let contacts = (self.frictions.iter().enumerate()).map(|(below, &friction)| SceneContact {
             body: Some(name(below + 1)),
-            group: "bottom".to_owned(),
+            group: "bottom".into(),
             against: Some(SceneSurface {
                 body: Some(name(below)),
-                group: "top".to_owned(),
+                group: "top".into(),
             }),
             friction: Some(friction),
             ..SceneContact::default()
@@ -150,7 +150,7 @@ impl Stack {
             let mut displacement = vec![Some(0.0); axes];
             (displacement[0], displacement[up]) = (Some(aside), Some(down));
             body.supports.push(SceneSupport::Group {
-                group: group.to_owned(),
+                group: group.into(),
                 displacement,
             });
         };

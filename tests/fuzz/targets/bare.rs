@@ -99,20 +99,10 @@ impl<'a> Arbitrary<'a> for Numbers {
             _ => None,
         };
         let settings = match from.int_in_range(0..=9_u8)? {
-            0 => Settings {
-                tolerance: number(from, true)?,
-                max_sweeps: from.int_in_range(0..=30)?,
-                ..Settings::default()
-            },
-            1 => Settings {
-                tolerance: 10_f64.powi(from.int_in_range(-17..=0)?),
-                ..Settings::default()
-            },
+            0 => Settings::default().with_tolerance(number(from, true)?).with_max_sweeps(from.int_in_range(0..=30)?),
+            1 => Settings::default().with_tolerance(10_f64.powi(from.int_in_range(-17..=0)?)),
             2 => Settings::default(),
-            _ => Settings {
-                max_sweeps: 12,
-                ..Settings::default()
-            },
+            _ => Settings::default().with_max_sweeps(12),
         };
         let variant = match from.int_in_range(0..=19_u8)? {
             0 => Some(Variant::PLAIN),

@@ -4,8 +4,8 @@
 use dpana::body::{Group, Mesh};
 use dpana::mesh_file;
 use dpana::scene::{
-    MeshSource, Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel,
-    SceneObstacle, SceneSupport, SceneSurface,
+    Scene, SceneBody, SceneContact, SceneLoad, SceneMaterial, SceneModel, SceneObstacle,
+    SceneSupport,
 };
 use dpana_fuzz::attempt;
 use libfuzzer_sys::fuzz_target;
@@ -42,40 +42,25 @@ fn scene(mesh: Mesh, choice: usize) -> Scene {
     };
     let against = choice % 3 == 0;
     let hold = SceneSupport::Group {
-        group: any(mesh.groups.keys().last()),
+        group: any(mesh.groups.keys().last()).into(),
         displacement: axes([0.0, -0.01, -0.01]).into_iter().map(Some).collect(),
     };
     let load = SceneLoad::Pressure {
         pressure: 1.0,
-        group: any(facets.last()),
+        group: any(facets.last()).into(),
     };
     let obstacle = SceneObstacle::Plane {
         point: axes([0.0; 3]),
         normal: axes(up),
     };
-    Scene {
-        bodies: vec![SceneBody {
-            name: "part".into(),
-            model: (dimension == 2).then_some(SceneModel::PlaneStrain),
-            materials: vec![SceneMaterial::new(1000.0, 0.3)],
-            supports: if choice % 2 == 0 { vec![hold] } else { vec![] },
-            loads: vec![load],
-            mesh: MeshSource::Given(mesh),
- foundation: Vec::new(),
-formulation: dpana::scene::SceneFormulation::default(),
-groups: std::collections::BTreeMap::new(),
-        }],
-        contacts: vec![SceneContact {
-            group: any(facets.first()),
-            body: None,
-            obstacle: (!against).then_some(obstacle),
-            against: against.then(|| SceneSurface {
-                body: None,
-                group: any(facets.get(1)),
-            }),
-            friction: Some(0.3),
-            ..SceneContact::default()
-        }],
-        ..Scene::default()
-    }
+    let mut part = SceneBody::new("part", mesh).with_material(SceneMaterial::new(1000.0, 0.3));
+    part.model = (dimension == 2).then_some(SceneModel::PlaneStrain);
+    part.supports.extend((choice % 2 == 0).then_some(hold));
+    part.loads.push(load);
+    let [first, second] = [0, 1].map(|at| any(facets.get(at)));
+    let contact = match against {
+        true => SceneContact::between(["part", &first], ["part", &second], 0.3),
+        false => SceneContact::on(obstacle, &first, 0.3),
+    };
+    Scene::new(vec![part], vec![contact])
 }
