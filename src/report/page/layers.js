@@ -203,7 +203,7 @@ class Scene {
     const layers = [];
     this.model.pairs.forEach((pair, index) => {
       if (!pair.obstacle) return;
-      const made = this.shape(pair.obstacle);
+      const made = this.drawn(pair.obstacle);
       const motion = look.state.stored.obstacles[index] || [0, 0, 0];
       const positions = made.positions.map((x, i) => x + look.scale * motion[i % 3]);
       const solid = this.model.dimension === 2 ? 1 : 0.35;
@@ -215,7 +215,7 @@ class Scene {
   }
 
   /* Rows and triangles are drawn as they come, other shapes near the bodies. */
-  shape(obstacle) {
+  drawn(obstacle) {
     if (obstacle.rows) return grid(obstacle.rows, 8);
     if (obstacle.triangles) {
       const edges = obstacle.triangles.flatMap(([a, b, c]) => [a, b, b, c, c, a]);
