@@ -15,6 +15,7 @@ use std::collections::HashMap;
 use super::kinds::facet_reference;
 use super::reference::{Family, Reference};
 use super::{CellKind, Facet, Group, Mesh};
+
 /// Corner nodes with their shares, in parts of [`SHARES`]: the same for a point of an edge or face from either side.
 type Place = Vec<(usize, u32)>;
 

@@ -7,6 +7,19 @@ use std::path::{Path, PathBuf};
 
 use dpana::report::{Table, replace_file};
 
+/// What was typed, with the program's name in place of its path.
+pub(super) fn command_line() -> String {
+    let mut words: Vec<String> = std::env::args().collect();
+    if let Some(program) = words.first_mut() {
+        let name = Path::new(program.as_str()).file_name();
+        *program = name.map_or_else(
+            || "dpana".to_owned(),
+            |name| name.to_string_lossy().into_owned(),
+        );
+    }
+    words.join(" ")
+}
+
 /// Writes a text to a file, or to standard output.
 pub(crate) fn write_output(path: &Path, text: &str) -> Result<(), dpana::Error> {
     if !is_standard(path) {

@@ -12,6 +12,7 @@ use dpana::study::{self, Plan};
 
 use dpana::scene::Scene;
 
+use super::outputs::command_line;
 use super::progress::Progress;
 use super::scene_file::read_scene;
 
@@ -195,17 +196,4 @@ fn words(part: study::Progress<'_>) -> String {
         .map(|k| if k < filled { '█' } else { '·' })
         .collect();
     format!("{bar} {done}/{of} {}", part.doing)
-}
-
-/// What was typed, with the program's name in place of its path.
-pub(super) fn command_line() -> String {
-    let mut words: Vec<String> = std::env::args().collect();
-    if let Some(program) = words.first_mut() {
-        let name = Path::new(program.as_str()).file_name();
-        *program = name.map_or_else(
-            || "dpana".to_owned(),
-            |name| name.to_string_lossy().into_owned(),
-        );
-    }
-    words.join(" ")
 }

@@ -8,8 +8,7 @@ use clap::Args;
 use dpana::report::MetamorphicBattery;
 use dpana::verify::{Reach, hard_cases, manual, metamorphic};
 
-use super::outputs::{check_writable, say, write_output};
-use super::study::command_line;
+use super::outputs::{check_writable, command_line, say, write_output};
 
 /// Random scenes whose changes belong to the hard cases.
 const CHANGED: usize = 250;

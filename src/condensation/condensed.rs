@@ -102,12 +102,7 @@ impl Condensed {
         pairs: &[ContactPair],
         rigid: &[RigidBody],
     ) -> Result<Self, Error> {
-        let start = Instant::now();
-        let prescribed = checked(bodies)?;
-        let surface = ContactSurface::new(bodies, pairs, &prescribed)?;
-        let surface = Arc::new(surface);
-        let given = (pairs, rigid, prescribed);
-        Self::on_surface((engine, Precision::Double), bodies, given, surface, start)
+        Self::by((engine, Precision::Double), bodies, pairs, rigid)
     }
 
     /// The same with factors in single precision (C32) where that pays and (C24) can make up for it: û and G have
@@ -121,17 +116,20 @@ impl Condensed {
         pairs: &[ContactPair],
         rigid: &[RigidBody],
     ) -> Result<Self, Error> {
+        Self::by((Engine::Faer, Precision::Single), bodies, pairs, rigid)
+    }
+
+    fn by(
+        wanted: (Engine, Precision),
+        bodies: &[Body],
+        pairs: &[ContactPair],
+        rigid: &[RigidBody],
+    ) -> Result<Self, Error> {
         let start = Instant::now();
         let prescribed = checked(bodies)?;
         let surface = Arc::new(ContactSurface::new(bodies, pairs, &prescribed)?);
         let given = (pairs, rigid, prescribed);
-        Self::on_surface(
-            (Engine::Faer, Precision::Single),
-            bodies,
-            given,
-            surface,
-            start,
-        )
+        Self::on_surface(wanted, bodies, given, surface, start)
     }
 
     /// The same bodies with factors in double precision, instead of these; with the sign that asks for it, if any.
