@@ -26,7 +26,7 @@ const LARGEST: f64 = 0.1;
 /// positions a thousand times as far away.
 const ROUND_OFF: f64 = 1e-9;
 
-/// Spread of the positions, relative to the largest, that is none.
+/// Part of the extent of the positions that is no spread along a direction.
 const RANK: f64 = 1e-10;
 
 /// Corrects the weights in place; positions of side 2 in metre, nothing moves along `still` directions.
@@ -46,7 +46,9 @@ pub(super) fn align(
     let offsets = weights
         .iter()
         .map(|(k, _)| Vector3::from(positions[*k]) - Vector3::from(from));
-    let mut offsets: Vec<Vector2<f64>> = offsets.map(across).collect();
+    let offsets: Vec<Vector3<f64>> = offsets.collect();
+    let extent = extent(&offsets);
+    let mut offsets: Vec<Vector2<f64>> = offsets.into_iter().map(across).collect();
     let stray = offsets.iter().zip(weights.iter());
     let stray: Vector2<f64> = stray.map(|(offset, (_, weight))| offset * *weight).sum();
     let mean = offsets.iter().sum::<Vector2<f64>>() / offsets.len() as f64;
@@ -55,7 +57,7 @@ pub(super) fn align(
         *offset -= mean;
         spread += *offset * offset.transpose();
     }
-    let multiplier = solve(spread, stray);
+    let multiplier = solve(spread, stray, RANK * extent);
     let changes = offsets.iter().map(|offset| -offset.dot(&multiplier));
     let largest = changes
         .clone()
@@ -94,10 +96,17 @@ pub(super) fn follow(
     (movable * along).normalize()
 }
 
-/// Solves `spread · multiplier = stray` along the directions in which the positions spread.
-fn solve(spread: Matrix2<f64>, stray: Vector2<f64>) -> Vector2<f64> {
+/// Sum of the squared distances from the mean, in m²: directions along which nothing counts have no part in how far
+/// positions spread, but in what of that is round-off.
+fn extent(offsets: &[Vector3<f64>]) -> f64 {
+    let mean = offsets.iter().sum::<Vector3<f64>>() / offsets.len() as f64;
+    let squares = offsets.iter().map(|offset| (offset - mean).norm_squared());
+    squares.sum()
+}
+
+/// Solves `spread · multiplier = stray` along the directions in which the positions spread by more than `least`.
+fn solve(spread: Matrix2<f64>, stray: Vector2<f64>, least: f64) -> Vector2<f64> {
     let eigen = spread.symmetric_eigen();
-    let least = RANK * eigen.eigenvalues.max();
     let mut multiplier = Vector2::zeros();
     for (value, direction) in eigen
         .eigenvalues
@@ -175,6 +184,23 @@ mod tests {
             (left - Vector3::new(0.0, -0.03, 0.0)).norm() < 1e-15,
             "{left}"
         );
+    }
+
+    #[test]
+    fn a_slanted_symmetry_plane_leaves_weights_as_one_along_an_axis_does() {
+        // Nodes on a line that leaves the plane: projected onto the plane they spread by round-off.
+        let across = Vector3::new(0.6, 0.8, 0.0);
+        let positions = [0.0, 0.5, 1.0].map(|s| (across * s).into());
+        let mut weights = [(0, 0.5), (1, 0.7), (2, -0.2)];
+        let before = weights;
+        align(
+            &mut weights,
+            &positions,
+            [0.0; 3],
+            Vector3::new(-0.8, 0.6, 0.0),
+            &Directions(vec![across]),
+        );
+        assert_eq!(weights, before);
     }
 
     #[test]

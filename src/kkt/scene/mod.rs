@@ -20,6 +20,7 @@ mod reach;
 mod rigid;
 mod seat;
 mod skin;
+mod supported;
 mod tile;
 mod tree;
 mod triangles;
@@ -38,6 +39,7 @@ use forces::{Forces, Unanswered};
 use meeting::Meeting;
 use reach::Touching;
 use seat::Seat;
+use supported::Supported;
 
 /// Part of the forces exchanged, and of the largest displacement, that is round-off,
 const ROUNDED: f64 = 1e-9;
@@ -57,6 +59,7 @@ pub struct SceneGeometry {
     meetings: Vec<Meeting>,
     /// Contacts of each pair.
     seats: Vec<Vec<Seat>>,
+    supported: Supported,
     /// Farthest coordinate, in metre.
     extent: f64,
 }
@@ -118,7 +121,8 @@ impl SceneGeometry {
     ///
     /// # Errors
     ///
-    /// [`Error::UnknownIndex`] if a contact stands at a body or node that does not exist.
+    /// [`Error::UnknownIndex`] if a contact stands at a body or node that does not exist; supports that contradict
+    /// each other.
     pub fn new(
         bodies: &[Body],
         pairs: &[ContactPair],
@@ -129,6 +133,7 @@ impl SceneGeometry {
             .iter()
             .map(|pair| Meeting::new(bodies, pair))
             .collect();
+        let supported = Supported::new(bodies, &meetings)?;
         let mut seats = vec![Vec::new(); pairs.len()];
         for (number, contact) in surface.nodes.iter().enumerate() {
             let Some(of_pair) = seats.get_mut(contact.pair) else {
@@ -139,12 +144,14 @@ impl SceneGeometry {
                     count: pairs.len(),
                 });
             };
-            of_pair.push(Seat::new(number, contact, &meetings[contact.pair], bodies));
+            let meeting = &meetings[contact.pair];
+            of_pair.push(Seat::new(number, contact, meeting, bodies, &supported));
         }
         let nodes = bodies.iter().flat_map(|body| &body.mesh.nodes).flatten();
         Ok(Self {
             meetings,
             seats,
+            supported,
             extent: nodes.fold(0.0, |most, x| x.abs().max(most)),
         })
     }
@@ -236,6 +243,7 @@ impl SceneGeometry {
                 side,
                 faces: faces.flat_map(|(seat, _)| &seat.faces).copied().collect(),
                 friction: friction.fold(0.0, f64::max),
+                supported: &self.supported,
             };
             let laws = state.problem.laws().unwrap_or_default();
             let mut laws = seats.iter().filter_map(|seat| laws.get(seat.contact));

@@ -6,7 +6,8 @@
 //!
 //! with rays `r_k` of the friction cone at the samples around pressed contacts: in space those of an octagon
 //! around the disc. No pressure has its resultant beyond the end of what it acts on: a block whose weight
-//! lies beyond the edge of what it stands on topples.
+//! lies beyond the edge of what it stands on topples. At a node that a support holds, what goes along the support
+//! counts either way: on a plane of symmetry facets lean out of the plane, and their mirror images lean back.
 
 use nalgebra::{Vector3, Vector6};
 
@@ -14,6 +15,10 @@ use super::forces::Forces;
 use super::hull::distance;
 use super::measure::Measure;
 use super::meeting::{Meeting, Sample};
+use super::supported::Supported;
+
+/// Least value of a node's shape function at a sample that counts as the node's.
+const OF_NODE: f64 = 0.5;
 
 /// Directions of friction in space.
 const DIRECTIONS: usize = 8;
@@ -26,6 +31,7 @@ pub(super) struct Touching<'a> {
     /// Its faces around pressed contacts, which may be named several times.
     pub(super) faces: Vec<usize>,
     pub(super) friction: f64,
+    pub(super) supported: &'a Supported,
 }
 
 impl Touching<'_> {
@@ -51,11 +57,8 @@ impl Touching<'_> {
         let moment = Vector3::from(forces.sides[0].moment);
         let rays = samples().filter_map(|sample| {
             let arm = (first(sample)? - from) / unit;
-            Some(
-                self.rays(sample)
-                    .into_iter()
-                    .map(move |ray| joined(ray, arm.cross(&ray))),
-            )
+            let rays = self.rays(sample).into_iter().chain(self.held(sample));
+            Some(rays.map(move |ray| joined(ray, arm.cross(&ray))))
         });
         let rays: Vec<Vector6<f64>> = rays.flatten().collect();
         let sought = joined(force, moment / unit);
@@ -65,6 +68,19 @@ impl Touching<'_> {
         let missed = distance(&rays, sought) / force.norm() * unit;
         let rounded = (part.sqrt() + noise / force.norm()) * unit;
         Measure::new(missed, rounded + 4.0 * sagitta, at)
+    }
+
+    /// Both ways along what supports hold at the nodes of a sample.
+    fn held(&self, sample: &Sample) -> Vec<Vector3<f64>> {
+        let places = sample.places.iter().zip(&self.meeting.skins);
+        let nodes = places.filter_map(|(place, skin)| {
+            let place = place.as_ref()?;
+            let nodes = skin.faces[place.face].nodes.iter().zip(&place.shape);
+            let mut of_sample = nodes.filter(|(_, shape)| **shape > OF_NODE);
+            of_sample.next().map(|(&node, _)| (skin.body, node))
+        });
+        let held = nodes.flat_map(|(body, node)| self.supported.at(body, node));
+        held.flat_map(|way| [*way, -way]).collect()
     }
 
     /// The friction cone around the force on the first side.

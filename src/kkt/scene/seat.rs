@@ -7,12 +7,14 @@
 //!        n                                                  among the normals of both sides there
 //! ```
 //!
-//! Facets around are those of the nodes that the contact moves with, and their neighbours.
+//! Facets around are those of the nodes that the contact moves with, and their neighbours. On a plane of symmetry
+//! all this is said of what lies in the plane: mirror images have the rest, turned back.
 
 use nalgebra::Vector3;
 
 use super::measure::Measure;
 use super::meeting::Meeting;
+use super::supported::{Supported, across};
 use crate::body::Body;
 use crate::contact::ContactNode;
 
@@ -42,6 +44,8 @@ pub(super) struct Seat {
     pub(super) sagitta: f64,
     /// How far both sides' means are from one line along the normal, in metre.
     aside: Measure,
+    /// The same along what supports of both sides hold.
+    mirrored: f64,
     /// How far its normal is from all between those of both sides there, in metre: as an angle times the
     /// facets' size.
     turned: Measure,
@@ -55,7 +59,9 @@ impl Seat {
         contact: &ContactNode,
         meeting: &Meeting,
         bodies: &[Body],
+        supported: &Supported,
     ) -> Self {
+        let still = supported.still(contact);
         let side = usize::from(contact.second);
         let faces = match meeting.skins.get(side) {
             Some(skin) if skin.body == contact.body => {
@@ -72,6 +78,8 @@ impl Seat {
             size = size.max(meeting.skins[side].faces[face].size);
             for sample in meeting.on(side, face).map(|k| &meeting.samples[k]) {
                 normals.extend(sample.normals());
+                let in_plane = sample.normals().map(|normal| across(normal, &still));
+                normals.extend(in_plane.filter_map(|normal| normal.try_normalize(ALONG)));
                 let cosine = sample.towards.dot(&towards);
                 if cosine > ALONG {
                     let distance = sample.distance / cosine;
@@ -84,10 +92,12 @@ impl Seat {
         let rounded = ROUNDED * size;
         // A contact that moves with nothing has no facets, and is off all the same.
         let extent = if size > 0.0 { size } else { 1.0 };
+        let stray = stray(contact, bodies);
         Self {
             contact: number,
+            mirrored: (stray - across(stray, &still)).norm(),
             aside: Measure {
-                value: aside(contact, bodies),
+                value: across(stray, &still).norm(),
                 explained: leant + 4.0 * sagitta + rounded,
                 contact: number,
             },
@@ -128,14 +138,14 @@ impl Seat {
                 true => most.max(d.abs()),
                 false => most,
             });
-        force * self.aside.explained + friction * (gap + self.sagitta)
+        force * (self.aside.explained + self.mirrored) + friction * (gap + self.sagitta)
     }
 }
 
-/// `‖v − (v · n) n‖` with `v = Σ w_j x_j − Σ b_k x_k`, in metre; zero against an obstacle.
-fn aside(contact: &ContactNode, bodies: &[Body]) -> f64 {
+/// `v − (v · n) n` with `v = Σ w_j x_j − Σ b_k x_k`, in metre; zero against an obstacle.
+fn stray(contact: &ContactNode, bodies: &[Body]) -> Vector3<f64> {
     let Some(opposite) = &contact.opposite else {
-        return 0.0;
+        return Vector3::zeros();
     };
     let from = Vector3::from(contact.position);
     // Relative to where it stands: large coordinates shall not cost digits.
@@ -150,7 +160,7 @@ fn aside(contact: &ContactNode, bodies: &[Body]) -> f64 {
     };
     let apart = mean(opposite.body, &opposite.nodes) - mean(contact.body, &contact.own);
     let normal = Vector3::from(contact.frame[0]);
-    (apart - normal * apart.dot(&normal)).norm()
+    apart - normal * apart.dot(&normal)
 }
 
 /// The angle from a direction to the nearest of some normals, beside the largest between these.
