@@ -83,16 +83,22 @@ impl Touching<'_> {
         held.flat_map(|way| [*way, -way]).collect()
     }
 
-    /// The friction cone around the force on the first side.
+    /// The friction cone around the force on the first side: its axis, and unit vectors along its edges, which are all
+    /// that is left of them where friction is as good as glue.
     fn rays(&self, sample: &Sample) -> Vec<Vector3<f64>> {
         let normal = -sample.towards;
         if self.friction == 0.0 {
             return vec![normal];
         }
+        let edge = |tangent: Vector3<f64>, radius: f64| (normal + tangent * radius).normalize();
         let plane = self.meeting.skins.iter().all(|skin| skin.dimension == 2);
         if plane {
-            let tangent = normal.cross(&Vector3::z()) * self.friction;
-            return vec![normal + tangent, normal - tangent];
+            let tangent = normal.cross(&Vector3::z());
+            return vec![
+                normal,
+                edge(tangent, self.friction),
+                edge(-tangent, self.friction),
+            ];
         }
         let mut least = Vector3::zeros();
         least[normal.abs().imin()] = 1.0;
@@ -100,12 +106,11 @@ impl Touching<'_> {
         let second = normal.cross(&first);
         let half = std::f64::consts::PI / DIRECTIONS as f64;
         let radius = self.friction / half.cos();
-        (0..DIRECTIONS)
-            .map(|k| {
-                let (sin, cos) = (2.0 * half * k as f64).sin_cos();
-                normal + (first * cos + second * sin) * radius
-            })
-            .collect()
+        let edges = (0..DIRECTIONS).map(|k| {
+            let (sin, cos) = (2.0 * half * k as f64).sin_cos();
+            edge(first * cos + second * sin, radius)
+        });
+        edges.chain([normal]).collect()
     }
 }
 
