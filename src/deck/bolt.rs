@@ -182,7 +182,7 @@ impl Building {
         let (name, group) = (format!("bolt {number}"), format!("cells of bolt {number}"));
         // What the scene will do, here where the deck's line is known.
         let mut parted = self.mesh.clone();
-        let cut = parted.cut(&name, &cells, [point, axis]);
+        let cut = parted.cut(&name, &name, &cells, [point, axis]);
         cut.map_err(|error| section.card.error(format!("is not read: {error}")))?;
         let faces = match &parted.groups[&format!("{name}.own")] {
             Group::Facets(facets) => facets.len(),

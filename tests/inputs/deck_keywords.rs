@@ -583,7 +583,7 @@ fn keywords_gone_wrong_are_refused_by_line_and_name() {
         ),
         (
             "*SURFACE, NAME=CUT\n2, S3\n*NODE\n99, 0, 0\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=99\n",
-            ":32: *PRE-TENSION SECTION: is not read: point: a plane that all cells lie on one side of",
+            ":32: *PRE-TENSION SECTION: is not read: bolt 0.point: a plane that all cells lie on one side of",
         ),
         (
             "*SURFACE, NAME=CUT\n2\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=99\n",
