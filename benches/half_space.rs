@@ -1,5 +1,6 @@
 //! Rough surfaces on ever finer grids: with friction to 1e-10, and without to 1e-10; then one application on
-//! a padded grid beside the one-dimensional transforms in it, each in a buffer of its own.
+//! a padded grid beside its own two-dimensional transforms with nothing done to their waves, in turn, and beside the
+//! one-dimensional transforms in it, each in one small buffer that stays in the cache.
 //!
 //! `cargo bench --bench half_space [-- --quick]`
 #![allow(clippy::print_stdout)]
@@ -39,17 +40,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     } else {
         vec![256, 512, 1024]
     } {
-        let [whole, alone] = application(n)?;
+        let [whole, alone, lines] = application(n)?;
         println!(
-            "{n:>4}² padded, processor ms: application {whole:.1}, transforms alone {alone:.1}, ratio {:.2}",
-            whole / alone
+            "{n:>4}² padded, processor ms: application {whole:.1}, its transforms alone {alone:.1}, ratio {:.2}; lines in \
+             one buffer {lines:.1}, ratio {:.2}",
+            whole / alone,
+            whole / lines
         );
     }
     Ok(())
 }
 
-/// Processor time of one application with padding, and of its one-dimensional transforms, in ms.
-fn application(n: usize) -> Result<[f64; 2], Box<dyn Error>> {
+/// Processor time of one application with padding, of its transforms alone, and of their lines one by one, in ms;
+/// medians of rounds in turn.
+fn application(n: usize) -> Result<[f64; 3], Box<dyn Error>> {
     let material = ElasticHalf {
         young: 1.0,
         poisson: 0.3,
@@ -57,18 +61,25 @@ fn application(n: usize) -> Result<[f64; 2], Box<dyn Error>> {
     let grid = Grid::new([n, n], [1.0 / n as f64; 2])?;
     let operator = HalfSpace::new(grid, Surroundings::Free, material, None)?;
     let force = grid.sample(|[x, y]| (9.0 * x + y).sin());
-    let rounds = (4 << 20) / (n * n) + 1;
-    operator.apply([&force, &force, &force])?;
-    let start = processor()?;
-    for _ in 0..rounds {
-        operator.apply([&force, &force, &force])?;
+    let times = (4 << 20) / (n * n) + 1;
+    let mut found: [Vec<f64>; 3] = Default::default();
+    for _ in 0..7 {
+        for (kind, found) in found.iter_mut().enumerate() {
+            let start = processor()?;
+            for _ in 0..times {
+                match kind {
+                    0 => drop(operator.apply([&force, &force, &force])?),
+                    1 => drop(operator.transform([&force, &force, &force])?),
+                    _ => transforms(n, 2 * n)?,
+                }
+            }
+            found.push(1e3 * (processor()? - start) / times as f64);
+        }
     }
-    let middle = processor()?;
-    for _ in 0..rounds {
-        transforms(n, 2 * n)?;
-    }
-    let end = processor()?;
-    Ok([middle - start, end - middle].map(|seconds| 1e3 * seconds / rounds as f64))
+    Ok(found.map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    }))
 }
 
 /// Three fields of `n` rows there and back, padded to `m` by `m`: rows, columns, columns back, rows back.

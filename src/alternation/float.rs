@@ -31,15 +31,19 @@ impl Run<'_> {
         };
         let laws = self.problem.laws().unwrap_or_default();
         let bounded = laws.iter().all(Law::is_within_coulomb);
-        if self.is_solved() || self.work.sweeps > 1 || !bounded {
+        if self.is_solved() || self.work.sweeps > 1 {
             return;
         }
         let start = Instant::now();
-        if let Some(contacts) = RigidContacts::of(self.problem, floating)
-            && let Ok(Equilibrium::Impossible { motion, excess }) =
-                contacts.admissible(floating.load())
-        {
-            self.failure = self.believe(&contacts, floating, motion, excess);
+        if let Some(contacts) = RigidContacts::of(self.problem, floating) {
+            // Beyond Coulomb's cone reactions have no other bound than that they do no work on what moves no contact.
+            let found = match bounded {
+                true => contacts.admissible(floating.load()).ok(),
+                false => contacts.idle(floating.load()),
+            };
+            if let Some(Equilibrium::Impossible { motion, excess }) = found {
+                self.failure = self.believe(&contacts, floating, motion, excess);
+            }
         }
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }

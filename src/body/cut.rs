@@ -15,7 +15,7 @@ impl Mesh {
     ///
     /// Two groups are added, of the facets in the plane: `NAME.own` of the cells ahead along the axis, which get
     /// nodes of their own, and `NAME.other` of those behind. Every other group follows, as in
-    /// [`split`](Self::split).
+    /// [`split`](Self::split). `place` stands for the cut in messages.
     ///
     /// # Errors
     ///
@@ -24,13 +24,15 @@ impl Mesh {
     /// [`Error::Direction`] for an axis without direction.
     pub fn cut(
         &mut self,
+        place: &str,
         name: &str,
         cells: &[usize],
         [point, axis]: [[f64; 3]; 2],
     ) -> Result<(), Error> {
+        let at = |key: &str| format!("{place}.{key}");
         let Some(along) = Vector3::from(axis).try_normalize(0.0) else {
             return Err(Error::Direction {
-                place: "axis".to_owned(),
+                place: at("axis"),
                 value: axis,
                 accepted: "a direction of any length but zero",
             });
@@ -42,7 +44,7 @@ impl Mesh {
         });
         if !(low < 0.0 && high > 0.0) {
             return refuse(
-                "point",
+                at("point"),
                 format!(
                     "a plane that all cells lie on one side of: their centres are {low:e} to {high:e} ahead of it"
                 ),
@@ -60,7 +62,7 @@ impl Mesh {
         let off = |node: &usize| height(self.nodes[*node]).abs();
         if let Some(node) = shared.iter().find(|node| off(node) > IN_PLANE * size) {
             return refuse(
-                "point",
+                at("point"),
                 format!(
                     "a plane through cells: node {node} at {:?}, between those ahead and those behind, is {:e} off it",
                     self.nodes[*node],
@@ -69,12 +71,17 @@ impl Mesh {
                 "a plane that facets of the mesh lie in",
             );
         }
-        self.refuse_others(cells, &shared)?;
-        self.part_from(name, [&ahead, &behind], &shared)
+        self.refuse_others(at("group"), cells, &shared)?;
+        self.part_from(&at("groups"), name, [&ahead, &behind], &shared)
     }
 
     /// Refuses a cut that is not closed: other cells at its nodes hold the two parts together.
-    fn refuse_others(&self, cells: &[usize], shared: &BTreeSet<usize>) -> Result<(), Error> {
+    fn refuse_others(
+        &self,
+        place: String,
+        cells: &[usize],
+        shared: &BTreeSet<usize>,
+    ) -> Result<(), Error> {
         let own: BTreeSet<usize> = cells.iter().copied().collect();
         let others = (0..self.cell_count()).filter(|cell| !own.contains(cell));
         let mut held = others.filter_map(|cell| {
@@ -84,7 +91,7 @@ impl Mesh {
         match held.next() {
             None => Ok(()),
             Some((cell, node)) => refuse(
-                "group",
+                place,
                 format!(
                     "cells that the plane does not part from the rest: cell {cell}, which is none of them, holds node {node} \
                      of the cut at {:?}",
@@ -96,9 +103,9 @@ impl Mesh {
     }
 }
 
-fn refuse(place: &str, found: String, accepted: &str) -> Result<(), Error> {
+fn refuse(place: String, found: String, accepted: &str) -> Result<(), Error> {
     Err(Error::NotAccepted {
-        place: place.to_owned(),
+        place,
         found,
         accepted: accepted.to_owned(),
     })
@@ -127,8 +134,13 @@ mod tests {
     fn both_sides_of_a_cut_lie_in_its_plane_on_nodes_of_their_own() {
         let (mut mesh, all) = (cube(), (0..16).collect::<Vec<_>>());
         let before = mesh.nodes.len();
-        mesh.cut("bolt", &all, [[9.0, 9.0, 0.75], [0.0, 0.0, -2.0]])
-            .unwrap();
+        mesh.cut(
+            "bolts[0]",
+            "bolt",
+            &all,
+            [[9.0, 9.0, 0.75], [0.0, 0.0, -2.0]],
+        )
+        .unwrap();
         assert_eq!(mesh.nodes.len(), before + 9);
         let [own, other] = ["bolt.own", "bolt.other"].map(|name| facets(&mesh, name).to_vec());
         assert_eq!((own.len(), other.len()), (4, 4));
@@ -146,7 +158,7 @@ mod tests {
         let all: Vec<usize> = (0..16).collect();
         let said = |cells: &[usize], point: [f64; 3], axis: [f64; 3]| {
             cube()
-                .cut("bolt", cells, [point, axis])
+                .cut("bolts[0]", "bolt", cells, [point, axis])
                 .unwrap_err()
                 .to_string()
         };
@@ -160,8 +172,8 @@ mod tests {
         assert!(said(&column, [0.0, 0.0, 0.5], up).contains("none of them"));
         let mut twice = cube();
         let plane = [[0.0, 0.0, 0.5], up];
-        twice.cut("bolt", &all, plane).unwrap();
-        assert!(twice.cut("bolt", &all, plane).is_err());
+        twice.cut("bolts[0]", "bolt", &all, plane).unwrap();
+        assert!(twice.cut("bolts[0]", "bolt", &all, plane).is_err());
     }
 
     #[test]
@@ -169,8 +181,13 @@ mod tests {
         let line = graded(0.0, 1.0, 2, 1.0).unwrap();
         let mut mesh = rectangle(&line, &line, CellKind::Quad8).unwrap();
         let before = mesh.nodes.len();
-        mesh.cut("bolt", &[0, 1, 2, 3], [[0.5, 0.5, 0.0], [1.0, 0.0, 0.0]])
-            .unwrap();
+        mesh.cut(
+            "bolts[0]",
+            "bolt",
+            &[0, 1, 2, 3],
+            [[0.5, 0.5, 0.0], [1.0, 0.0, 0.0]],
+        )
+        .unwrap();
         assert_eq!(mesh.nodes.len(), before + 5);
         assert_eq!(facets(&mesh, "bolt.own").len(), 2);
     }

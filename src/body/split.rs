@@ -43,14 +43,19 @@ impl Mesh {
             let accepted = "cells that share nodes with others";
             return refuse("cells that share no node with others".to_owned(), accepted);
         }
-        self.part_from(name, [&own, &rest], &shared)
-            .map_err(|error| error.within(format_args!("split `{name}`")))
+        self.part_from(
+            &format!("split `{name}`: groups"),
+            name,
+            [&own, &rest],
+            &shared,
+        )
     }
 
     /// Gives cells nodes of their own in place of those that they share with others, and adds the groups of
-    /// the facets that were shared: `NAME.own` and `NAME.other`.
+    /// the facets that were shared: `NAME.own` and `NAME.other`. `place` stands for names in messages.
     pub(super) fn part_from(
         &mut self,
+        place: &str,
         name: &str,
         [own, other]: [&BTreeSet<usize>; 2],
         shared: &BTreeSet<usize>,
@@ -58,7 +63,7 @@ impl Mesh {
         let added = [format!("{name}.own"), format!("{name}.other")];
         if let Some(known) = added.iter().find(|name| self.groups.contains_key(*name)) {
             return Err(Error::NotAccepted {
-                place: "groups".to_owned(),
+                place: place.to_owned(),
                 found: format!("a mesh with a group `{known}`"),
                 accepted: "another name".to_owned(),
             });

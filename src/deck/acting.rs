@@ -31,7 +31,7 @@ type Together = ([Option<f64>; 6], Vec<f64>);
 const ROUND_OFF: f64 = 1e-12;
 
 /// The value of largest amount.
-fn largest(values: &[f64]) -> f64 {
+pub(super) fn largest(values: &[f64]) -> f64 {
     let size = |value: &&f64| value.abs();
     let largest = values.iter().max_by(|a, b| size(a).total_cmp(&size(b)));
     largest.copied().unwrap_or_default()
@@ -90,12 +90,21 @@ impl Stock<'_, '_> {
             Slot::Pressure((cell, _)) => (of_cell[cell], Kind::Pressure),
             Slot::Weight(cell, axis) => (of_cell[cell], Kind::Weight(axis)),
             Slot::Spin(cell, line) => (of_cell[cell], Kind::Spin(line)),
-            Slot::Motion(..) | Slot::Wrench(..) => return None,
+            Slot::Motion(..)
+            | Slot::Wrench(..)
+            | Slot::Shortening(_)
+            | Slot::Preload(_)
+            | Slot::Lock(_) => return None,
         })
     }
 
     /// Adds a table of factors, where a value changes.
-    fn tabulate(&self, place: String, (values, stated): (&[f64], f64), factors: &mut Tables) {
+    pub(super) fn tabulate(
+        &self,
+        place: String,
+        (values, stated): (&[f64], f64),
+        factors: &mut Tables,
+    ) {
         if values.iter().any(|value| *value != stated) {
             let rows = self.history.instants.iter().zip(values);
             let rows = rows.map(|(at, value)| vec![*at, value / stated]);

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use super::bolt::Sections;
 use super::cyclic::Repeat;
 use super::history::History;
 use super::material::Materials;
@@ -26,6 +27,7 @@ pub(super) struct Stock<'a, 'c> {
     pub(super) contacts: Contacts<'a, 'c>,
     pub(super) transforms: Transforms,
     pub(super) rigid: RigidGroups<'a, 'c>,
+    pub(super) sections: Sections<'a, 'c>,
     pub(super) repeats: Vec<Repeat>,
     pub(super) history: History,
 }
@@ -55,6 +57,7 @@ impl Stock<'_, '_> {
         let mut factors = Tables::new();
         self.add_loads(&mut bodies, &mut factors);
         self.add_rigid_groups(&mut bodies, &mut factors)?;
+        self.add_bolts(&mut bodies, &mut factors)?;
         self.add_repeats(&mut bodies);
         let (mut contacts, mut gaps) = (Vec::new(), Tables::new());
         for pair in &self.contacts.pairs {

@@ -51,10 +51,12 @@ const FAMILIES: [&[&str]; 4] = [
 
 fn family(slot: Slot) -> usize {
     match slot {
-        Slot::Held(..) | Slot::Motion(..) => 0,
-        Slot::Force(..) | Slot::Wrench(..) => 1,
+        Slot::Held(..) | Slot::Motion(..) | Slot::Shortening(_) => 0,
+        Slot::Force(..) | Slot::Wrench(..) | Slot::Preload(_) => 1,
         Slot::Pressure(_) | Slot::Weight(..) | Slot::Spin(..) => 2,
         Slot::Heat(_) => 3,
+        // Once locked, always: no keyword ends it.
+        Slot::Lock(_) => FAMILIES.len(),
     }
 }
 

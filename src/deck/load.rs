@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use super::bolt::Sections;
 use super::material::Materials;
 use super::parts::Parts;
 use super::rigid::RigidGroups;
@@ -29,6 +30,12 @@ pub(super) enum Slot {
     Motion(usize, usize),
     /// Force on a rigid group or, from 3 on, moment.
     Wrench(usize, usize),
+    /// How much shorter a bolt is made.
+    Shortening(usize),
+    /// Force that a bolt carries.
+    Preload(usize),
+    /// Whether a bolt is locked.
+    Lock(usize),
 }
 
 /// What one row of a card says.
@@ -40,6 +47,7 @@ pub(super) struct Reader<'r> {
     pub(super) materials: &'r Materials,
     pub(super) parts: &'r Parts,
     pub(super) rigid: &'r RigidGroups<'r, 'r>,
+    pub(super) sections: &'r Sections<'r, 'r>,
     pub(super) transforms: &'r Transforms,
     /// Temperature of every node before the first step.
     pub(super) initial: Vec<f64>,
@@ -66,7 +74,7 @@ impl Reader<'_> {
         notes: &mut Notes,
     ) -> Result<Vec<Given>, Error> {
         match card.name.as_str() {
-            "BOUNDARY" => card.only(&["OP", "AMPLITUDE", "TIMEDELAY", "TYPE"])?,
+            "BOUNDARY" => card.only(&["OP", "AMPLITUDE", "TIMEDELAY", "TYPE", "FIXED"])?,
             _ => card.only(&["OP", "AMPLITUDE", "TIMEDELAY"])?,
         }
         card.one_of("OP", &["NEW", "MOD"])?;
@@ -88,11 +96,12 @@ impl Reader<'_> {
         if self.parts.plane() { 2 } else { 3 }
     }
 
-    /// The nodes of a row's first word that some element has or that stand for a rigid group.
+    /// The nodes of a row's first word that some element has or that stand for a rigid group or a bolt.
     fn nodes(&self, row: Row<'_, '_>, notes: &mut Notes) -> Result<Vec<usize>, Error> {
         let mut nodes = self.contents.nodes.members(row, row.word(0))?;
         let all = nodes.len();
-        nodes.retain(|&node| self.parts.of_node[node].is_some() || self.rigid.of(node).is_some());
+        let stands = |node| self.rigid.of(node).is_some() || self.sections.of(node).is_some();
+        nodes.retain(|&node| self.parts.of_node[node].is_some() || stands(node));
         if nodes.len() < all {
             notes.add(row.card, "nodes that belong to no element are left out");
         }
@@ -118,6 +127,12 @@ impl Reader<'_> {
                 (axes, row.number(3, "a displacement", 0.0)?)
             }
         };
+        if row.card.get("FIXED").is_some() {
+            let lock = |&node: &usize| Some((Slot::Lock(self.sections.of(node)?), 1.0));
+            let locks: Option<Vec<Given>> = nodes.iter().map(lock).collect();
+            let other = || row.error("`FIXED` is read of nodes of *PRE-TENSION SECTION only");
+            return locks.filter(|_| axes[0]).ok_or_else(other);
+        }
         let mut given = Vec::new();
         for node in nodes {
             let axes = (0..6).filter(|&axis| axes[axis]);
@@ -129,6 +144,9 @@ impl Reader<'_> {
 
     /// What holds a node along an axis from 0, or its rotation from 3 on; none for what it does not have.
     fn support(&self, node: usize, axis: usize) -> Option<Slot> {
+        if let Some(section) = self.sections.of(node) {
+            return (axis == 0).then_some(Slot::Shortening(section));
+        }
         if let Some((group, turns)) = self.rigid.of(node) {
             let component = self.component(turns, axis)?;
             return Some(Slot::Motion(group, component));
@@ -154,6 +172,11 @@ impl Reader<'_> {
         let depth = |part: usize| self.parts.parts[part].depth();
         let mut given = Vec::new();
         for node in nodes {
+            if let Some(section) = self.sections.of(node) {
+                let force = force / depth(self.sections.sections[section].part);
+                given.extend((axis == 0).then_some((Slot::Preload(section), force)));
+                continue;
+            }
             if let Some((group, turns)) = self.rigid.of(node) {
                 let component = self.component(turns, axis);
                 let force = force / depth(self.rigid.groups[group].part);

@@ -11,7 +11,7 @@ use crate::mesh_file::abaqus::{Card, Flat, KEYWORDS};
 /// Keywords that state the model.
 const MODEL: &str = "MATERIAL ELASTIC DENSITY EXPANSION SOLIDSECTION ORIENTATION SURFACEINTERACTION \
     SURFACEBEHAVIOR FRICTION CONTACTPAIR CLEARANCE TIE CYCLICSYMMETRYMODEL TRANSFORM RIGIDBODY COUPLING \
-    KINEMATIC INITIALCONDITIONS BOUNDARY";
+    KINEMATIC PRE-TENSIONSECTION INITIALCONDITIONS BOUNDARY";
 
 /// Keywords that state a step.
 const STEP: &str = "BOUNDARY CLOAD DLOAD DSLOAD TEMPERATURE MODELCHANGE";
@@ -27,7 +27,7 @@ const NUMERICS: &str = "CONTROLS CONTACTCONTROLS CONTACTDAMPING SECTIONCONTROLS 
     SPECIFICHEAT GAPCONDUCTANCE DAMPING PHYSICALCONSTANTS SELECTCYCLICSYMMETRYMODES";
 
 /// What is refused, and its keywords.
-const REFUSED: [(&str, &str); 20] = [
+const REFUSED: [(&str, &str); 19] = [
     ("motion with inertia", "DYNAMIC"),
     (
         "temperature as an unknown",
@@ -43,7 +43,6 @@ const REFUSED: [(&str, &str); 20] = [
         "a node that moves as the mean of a surface",
         "DISTRIBUTING DISTRIBUTINGCOUPLING",
     ),
-    ("preloaded bolts", "PRE-TENSIONSECTION"),
     ("gap elements", "GAP"),
     (
         "an overlap stated apart from the mesh",

@@ -38,17 +38,18 @@ impl HalfSpaceProblem {
     /// Follows (S17) from rest; nothing where s cannot reach 1.
     pub(super) fn grown(&self, tolerance: f64, work: &mut HalfSpaceWork) -> Option<Coupled> {
         let mut share = (WEAK / self.strength()).min(1.0);
-        let weak = self.with_share(share);
+        let mut problem = self.clone();
+        problem.take_share(self, share);
         // Products on this grid are the caller's to count.
         let mut of_coarse = HalfSpaceWork::default();
-        let start = weak.start(ON_THE_WAY, &mut of_coarse).ok()?;
+        let start = problem.start(ON_THE_WAY, &mut of_coarse).ok()?;
         work.transforms += of_coarse.transforms;
-        let end = weak.run(start, ON_THE_WAY, &mut of_coarse);
-        let mut state = end.iterate.coupled(&weak);
+        let end = problem.run(start, ON_THE_WAY, &mut of_coarse);
+        let mut state = end.iterate.coupled(&problem);
         let mut factor = FACTORS[0];
         while share < 1.0 {
             let next = (share * factor).min(1.0);
-            let problem = self.with_share(next);
+            problem.take_share(self, next);
             let start = state.grown(&problem, next / share);
             let found = problem.finish(start, ON_THE_WAY);
             if found.residual <= ON_THE_WAY {
@@ -64,13 +65,14 @@ impl HalfSpaceProblem {
         Some(self.finish(state, tolerance))
     }
 
-    fn with_share(&self, share: f64) -> Self {
-        let mut problem = self.clone();
-        problem.friction.iter_mut().for_each(|mu| *mu *= share);
-        if let Drag::Force(force) = &mut problem.drag {
-            force.iter_mut().for_each(|part| *part *= share);
+    /// Friction and force become a share of what they are in the whole problem.
+    fn take_share(&mut self, whole: &Self, share: f64) {
+        for (mu, whole) in self.friction.iter_mut().zip(&whole.friction) {
+            *mu = whole * share;
         }
-        problem
+        if let Drag::Force(force) = whole.drag {
+            self.drag = Drag::Force(force.map(|part| part * share));
+        }
     }
 }
 

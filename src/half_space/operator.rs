@@ -153,10 +153,26 @@ impl HalfSpace {
     ///
     /// [`Error::Length`] unless there is one force per cell and direction.
     pub fn apply(&self, forces: [&[f64]; 3]) -> Result<[Vec<f64>; 3], Error> {
+        self.check_forces(forces)?;
+        Ok(self.full(forces, &self.whole, &self.whole))
+    }
+
+    /// The transforms of [`HalfSpace::apply`] alone, there and back, with nothing done to the waves: forces times
+    /// the number of cells with their padding. What benches set an application beside.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Length`] as `apply`.
+    pub fn transform(&self, forces: [&[f64]; 3]) -> Result<[Vec<f64>; 3], Error> {
+        self.check_forces(forces)?;
+        Ok(self.convolve(forces, &self.whole, &self.whole, &|_, _| {}))
+    }
+
+    fn check_forces(&self, forces: [&[f64]; 3]) -> Result<(), Error> {
         for (force, place) in forces.iter().zip(["forces[0]", "forces[1]", "forces[2]"]) {
             check_length(place, self.grid.len(), force.len())?;
         }
-        Ok(self.full(forces, &self.whole, &self.whole))
+        Ok(())
     }
 
     /// A column of `G` by the formulas: displacement at a cell by a unit force at another, rows and
@@ -213,13 +229,18 @@ impl HalfSpace {
     }
 
     pub(super) fn full(&self, forces: [&[f64]; 3], from: &Points, to: &Points) -> [Vec<f64>; 3] {
+        self.convolve(forces, from, to, &|column, waves| {
+            self.symbols.full(column, waves)
+        })
+    }
+
+    fn convolve(&self, forces: [&[f64]; 3], from: &Points, to: &Points, mix: Mix) -> [Vec<f64>; 3] {
         let asked = Convolution {
             inputs: forces.map(Some),
             from,
             outputs: [true; 3],
             to,
         };
-        let mix: Mix = &|column, waves| self.symbols.full(column, waves);
         self.transforms.convolve(&asked, mix)
     }
 

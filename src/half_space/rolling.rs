@@ -8,6 +8,9 @@
 //! u_T⁻ is the tangential displacement of the step before: what stood one cell ahead is here now. Steps
 //! from rest end in the steady state after a few lengths of the contact zone (CONTACT's transient
 //! rolling: Vollebregt, User guide; Kalker, Three-Dimensional Elastic Bodies in Rolling Contact, 1990).
+//!
+//! Totals are of first order in h. Kalker's creep coefficients of a circle (ν = 0.25) come within 1 % as the limit that grids of
+//! 22² and 44² cells name together (`cargo test --test half_space kalker`).
 
 use super::operator::Surroundings;
 use super::outcome::HalfSpaceOutcome;

@@ -62,13 +62,10 @@ impl RigidContacts {
 
     /// [`admissible`](Self::admissible) for a load that has been checked.
     pub(super) fn decide(&self, load: &[f64]) -> Equilibrium {
-        let impossible = |motion| {
-            let (motion, excess) = self.at_unit_speed(motion, load);
-            Equilibrium::Impossible { motion, excess }
-        };
-        if let Some(motion) = self.idle_motion(load) {
-            return impossible(motion);
+        if let Some(idle) = self.idle(load) {
+            return idle;
         }
+        let impossible = |motion| self.impossible(motion, load);
         let mut moved = self.basis.load(load);
         let size = length(&moved);
         if size == 0.0 {
@@ -105,6 +102,18 @@ impl RigidContacts {
                 remainder: search.remainder(),
             },
         }
+    }
+
+    /// Impossible, whatever laws the contacts obey, if the load works on a motion that moves none of them; else
+    /// nothing is known.
+    #[must_use]
+    pub(crate) fn idle(&self, load: &[f64]) -> Option<Equilibrium> {
+        Some(self.impossible(self.idle_motion(load)?, load))
+    }
+
+    fn impossible(&self, motion: Vec<f64>, load: &[f64]) -> Equilibrium {
+        let (motion, excess) = self.at_unit_speed(motion, load);
+        Equilibrium::Impossible { motion, excess }
     }
 
     /// An idle motion on which the load works, if there is one.

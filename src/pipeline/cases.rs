@@ -99,7 +99,8 @@ fn check_varied(name: &str, varied: &[usize], pairs: &[ContactPair]) -> Result<(
                 "the law `{}`",
                 pair.law.words(pair.friction).unwrap_or_default()
             ),
-            accepted: "a law with one coefficient that is free of others".to_owned(),
+            accepted: "a law with one coefficient that is free of others; `dpana solve` takes any law, a scene each"
+                .to_owned(),
         }),
     }
 }

@@ -26,7 +26,7 @@ use crate::alternation;
 use crate::alternation::{Outcome, Settings, Status};
 use crate::body::{Body, Extremes};
 use crate::condensation::{Condensed, Driven, Engine};
-use crate::contact::{ContactPair, Opposite, RigidBody};
+use crate::contact::{ContactPair, Opposite, RigidBody, RigidMotion};
 use crate::error::Error;
 use crate::kkt::{PairFit, SceneGeometry};
 #[cfg(feature = "cli")]
@@ -512,8 +512,7 @@ impl Solution {
     ///
     /// [`Error::NotAccepted`] for bodies in 3D.
     pub fn to_svg(&self) -> Result<String, Error> {
-        let (condensed, acting) = (&self.setup.condensed, &self.setup.acting);
-        let motions = condensed.pair_motions(&acting.obstacles, &self.outcome.motion);
+        let motions = self.pair_motions();
         let obstacle = |(at, pair): (usize, &ContactPair)| match &pair.opposite {
             Opposite::Obstacle(obstacle) => Some((
                 obstacle.clone(),
@@ -553,18 +552,16 @@ impl Solution {
             stresses: &self.nodal_stresses(),
             facets: &self.setup.condensed.surface().facets,
             pairs: &self.setup.pairs,
-            obstacles: &self.drawn_motions(),
+            obstacles: &self.pair_motions(),
             friction: problem.friction(),
             initial_gap: problem.initial_gap(),
         })
     }
 
-    /// Displacement of the obstacle per pair, of a rigid body of its reference point, in metre.
-    #[cfg(feature = "cli")]
-    fn drawn_motions(&self) -> Vec<[f64; 3]> {
+    /// Motion of the obstacle per pair.
+    fn pair_motions(&self) -> Vec<RigidMotion> {
         let (condensed, acting) = (&self.setup.condensed, &self.setup.acting);
-        let motions = condensed.pair_motions(&acting.obstacles, &self.outcome.motion);
-        motions.iter().map(|motion| motion.translation).collect()
+        condensed.pair_motions(&acting.obstacles, &self.outcome.motion)
     }
 
     /// Stress per body and node, xx, yy, zz, yz, xz, xy, in pascal.

@@ -83,8 +83,7 @@ impl SceneBolt {
                     selection::vector(&format!("{place}.{key}"), values, mesh.dimension)
                 };
                 let plane = [of("point", point)?, of("axis", axis)?];
-                mesh.cut(&self.name, &cells, plane)
-                    .map_err(|error| within(place, error))?;
+                mesh.cut(place, &self.name, &cells, plane)?;
                 Ok(["own", "other"].map(|side| format!("{}.{side}", self.name).into()))
             }
             (None, None, None, Some(faces)) => Ok(faces.clone()),
@@ -181,31 +180,6 @@ impl SceneBolt {
             (Some(_), Some(_)) => refuse("", "both `force` and `shortening`", "one of the two"),
             (None, None) => refuse("", "no `force` and no `shortening`", "one of the two"),
         }
-    }
-}
-
-/// The place of a key that a cut of the mesh refuses.
-fn within(place: &str, error: Error) -> Error {
-    match error {
-        Error::NotAccepted {
-            place: key,
-            found,
-            accepted,
-        } => Error::NotAccepted {
-            place: format!("{place}.{key}"),
-            found,
-            accepted,
-        },
-        Error::Direction {
-            place: key,
-            value,
-            accepted,
-        } => Error::Direction {
-            place: format!("{place}.{key}"),
-            value,
-            accepted,
-        },
-        other => other,
     }
 }
 

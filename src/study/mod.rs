@@ -82,13 +82,21 @@ pub fn study(
 
 /// The loops that are compared know Coulomb's law alone, with the coefficient that the study varies.
 fn check_laws(scene: &Scene) -> Result<(), Error> {
-    let mut contacts = scene.contacts.iter();
-    let other = contacts.position(|contact| contact.law.is_some() || contact.compliance.is_some());
+    let other = scene.contacts.iter().enumerate().find_map(|(at, contact)| {
+        // As the scene writes it.
+        let law = contact
+            .law
+            .as_ref()
+            .map(|law| serde_json::to_string(law).unwrap_or_default());
+        let compliance = contact.compliance.is_some();
+        law.map(|law| (at, "law", law))
+            .or_else(|| compliance.then(|| (at, "compliance", "a compliance".to_owned())))
+    });
     match other {
         None => Ok(()),
-        Some(at) => Err(Error::NotAccepted {
-            place: format!("contacts[{at}]"),
-            found: "a law or a compliance of its own".to_owned(),
+        Some((at, key, found)) => Err(Error::NotAccepted {
+            place: format!("contacts[{at}].{key}"),
+            found,
             accepted: "`friction` alone in a study, whose loops know Coulomb's law; `dpana solve` knows all laws"
                 .to_owned(),
         }),

@@ -212,6 +212,7 @@ fn leaning_bar(ahead: f64) -> (Mesh, [f64; 3]) {
     mesh.nodes.iter_mut().for_each(|x| *x = turned(*x));
     let along = turned([0.0, 0.0, ahead]);
     mesh.cut(
+        "bolts[0]",
         "cut",
         &(0..12).collect::<Vec<_>>(),
         [turned([0.0, 0.0, height]), along],

@@ -51,7 +51,6 @@ fn carters_cylinder_sticks_at_its_leading_edge() {
 }
 
 #[test]
-#[ignore = "slow: run in release"]
 fn kalkers_creep_coefficients_of_a_circle() {
     // ν = 0.25, a = b: F_x = G a² C11 ξ_x, F_y = G a² C22 ξ_y + G a³ C23 φ; Kalker (1967), table: 4.12,
     // 3.67, 1.47. Like bodies, friction so high that (almost) nothing slips.
@@ -88,7 +87,7 @@ fn kalkers_creep_coefficients_of_a_circle() {
         let unit = shear * a * a * tiny;
         [along[0] / unit, across[1] / unit, turned[1] / (unit * a)]
     };
-    let (coarse, fine) = (coefficients(22), coefficients(44));
+    let (coarse, fine) = rayon::join(|| coefficients(22), || coefficients(44));
     for (at, expected) in [4.12, 3.67, 1.47].into_iter().enumerate() {
         // First order in the cell: what two grids say of the limit.
         let limit = 2.0 * fine[at].abs() - coarse[at].abs();

@@ -162,6 +162,104 @@ fn height_maps_press_with_their_peaks_and_must_fit() {
 }
 
 #[test]
+fn height_maps_of_every_form_are_refused_with_place_where_they_are_no_surface() {
+    let folder = folder("height_maps_gone_wrong");
+    // What `numpy.save` writes.
+    let npy = |rows: usize, columns: usize, heights: &[f64]| {
+        let header =
+            format!("{{'descr': '<f8', 'fortran_order': False, 'shape': ({rows}, {columns}), }}\n");
+        let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+        bytes.extend((header.len() as u16).to_le_bytes());
+        bytes.extend(header.as_bytes());
+        heights
+            .iter()
+            .for_each(|height| bytes.extend(height.to_le_bytes()));
+        bytes
+    };
+    let profile = |words: &str, heights: &str| {
+        format!("# Width: 2 mm\n# Height: 2 mm\n# Value units: {words}\n{heights}").into_bytes()
+    };
+    let mm = r#", "unit": "mm""#;
+    for (file, bytes, more, said) in [
+        (
+            "a.npy",
+            npy(2, 2, &[0.0, 1.0, f64::NAN, 2.0]),
+            "",
+            "row 1, column 0 is NaN",
+        ),
+        (
+            "b.npy",
+            npy(2, 2, &[0.0, 1.0, f64::INFINITY, 2.0]),
+            "",
+            "row 1, column 0 is inf",
+        ),
+        (
+            "a.csv",
+            b"0,1\nnan,2\n".to_vec(),
+            "",
+            "row 1, column 0 is NaN",
+        ),
+        (
+            "a.txt",
+            profile("nm", "0 1\nNaN 2\n"),
+            mm,
+            "row 1, column 0 is NaN",
+        ),
+        ("c.npy", npy(2, 3, &[0.0; 6]), "", "2 rows of 3"),
+        (
+            "d.npy",
+            npy(2, 2, &[0.0; 3]),
+            "",
+            "24 bytes of numbers; expected 32",
+        ),
+        ("b.csv", b"0,1,2\n3,4,5\n".to_vec(), "", "2 rows of 3"),
+        (
+            "c.csv",
+            b"0,1\n3\n".to_vec(),
+            "",
+            "line 2: 1 heights; expected 2",
+        ),
+        ("b.txt", profile("nm", "0 1 2\n3 4 5\n"), mm, "2 rows of 3"),
+        (
+            "c.txt",
+            profile("furlong", "0 1\n2 3\n"),
+            mm,
+            "line 3: unit `furlong`",
+        ),
+        ("d.txt", profile("nm", "0 1\n2 3\n"), "", "expected `unit`"),
+        (
+            "e.txt",
+            profile("nm", "0 1\n2 3\n"),
+            r#", "unit": "m""#,
+            "half_space.size[0]",
+        ),
+        (
+            "e.npy",
+            npy(2, 2, &[0.0; 4]),
+            r#", "unit": "ell""#,
+            "unit `ell`",
+        ),
+        (
+            "d.csv",
+            b"0,1\n2,3\n".to_vec(),
+            r#", "unit": "ell""#,
+            "unit `ell`",
+        ),
+    ] {
+        fs::write(folder.join(file), bytes).unwrap();
+        let text = format!(
+            r#"{{"half_space": {{"material": {{"young": 1, "poisson": 0.3}}, "cells": [2, 2],
+            "size": [2, 2]}}, "load": 1,
+            "surface": [{{"height_map": {{"file": "{file}"{more}}}}}]}}"#
+        );
+        let scene = HalfSpaceScene::from_json(&text, folder.join("scene.json")).unwrap();
+        let found = scene.history().unwrap_err().to_string();
+        let placed = found.contains("surface[0]") || found.contains("half_space.size[0]");
+        assert!(placed && found.contains(said), "{file}: {found}");
+    }
+}
+
+#[test]
 fn the_command_line_writes_what_numpy_and_vtk_read() {
     let folder = folder("half_space");
     fs::write(

@@ -16,15 +16,16 @@ fn moved() -> String {
 
 const PRESSED: f64 = 1000.0 / (1.0 - 0.0625) * 0.005;
 
+/// What the first pair carries; the cut of a bolt would be the next one.
 fn normal(text: &str) -> f64 {
     let totals = certified(&read(text)).report().unwrap().totals;
-    totals.normal.abs()
+    totals.pairs[0].totals.normal.abs()
 }
 
 fn normals(text: &str) -> Vec<f64> {
     let mut found = Vec::new();
     let last = solve_steps(&read(text).scene, None, |solution| {
-        found.push(solution.report()?.totals.normal.abs());
+        found.push(solution.report()?.totals.pairs[0].totals.normal.abs());
         Ok(())
     });
     assert_eq!(last.unwrap().status(), dpana::Status::Certified);
@@ -391,6 +392,67 @@ fn spin_delays_and_letters_of_elements_reach_the_scene() {
 }
 
 /// Every keyword gone wrong, in place of the line `*BOUNDARY` before the first step or `*END STEP`.
+/// The squares between a floor and a ceiling; the lower one of two elements, with a section between them.
+fn clamped(vector: &str, section: &str, steps: &str) -> String {
+    let cut = format!(
+        "*NODE\n99, 7, 7\n*SURFACE, NAME=CUT\n1, S3\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=99\n{vector}"
+    );
+    let (model, _) = SQUARES.split_once("*STEP").unwrap();
+    let model = model
+        .replace("1, 1, 2, 3, 4\n", "1, 1, 2, 6, 5\n3, 5, 6, 3, 4\n")
+        .replace("3, 1, 1\n4", "3, 1, 1\n5, 0, 0.5\n6, 1, 0.5\n4")
+        .replace("LOW, S3", "3, S3")
+        .replace("MATERIAL=M\n", &format!("MATERIAL=M\n{section}"))
+        .replace("14, 1\n", "14, 1, 2\n13, 2\n")
+        .replace("*BOUNDARY", &format!("{cut}*BOUNDARY"));
+    format!("{model}{steps}")
+}
+
+#[test]
+fn a_section_of_a_bolt_carries_its_force_or_is_shortened_and_stays_locked() {
+    // Between floor and ceiling the column is pressed by what the section pushes: F, or E' s / 2 for a lengthening s.
+    let step = |what: &str| format!("*STEP\n*STATIC\n{what}*END STEP\n");
+    let modulus = 1000.0 / (1.0 - 0.0625);
+    for (vector, section, load, expected) in [
+        ("", "", "*CLOAD\n99, 1, -3.\n", 3.0),
+        ("0., 2., 0.\n", "", "*CLOAD\n99, 1, -3.\n", 3.0),
+        ("0., -1., 0.\n", "", "*CLOAD\n99, 1, 3.\n", 3.0),
+        ("", "2.\n", "*CLOAD\n99, 1, -3.\n", 1.5),
+        ("", "", "*BOUNDARY\n99, 1, 1, -0.01\n", 0.005 * modulus),
+        ("", "", "*BOUNDARY\n99, 1, 6, -0.01\n", 0.005 * modulus),
+        (
+            "0., -1., 0.\n",
+            "",
+            "*BOUNDARY\n99, 1, 1, 0.01\n",
+            0.005 * modulus,
+        ),
+    ] {
+        let found = normal(&clamped(vector, section, &step(load)));
+        assert_close(found, expected, 1e-9);
+    }
+    // Locked at 3, then the ceiling comes down.
+    let down =
+        "*BOUNDARY, FIXED\n99, 1, 1\n*CLOAD, OP=NEW\n*BOUNDARY\n13, 2, 2, -0.01\n14, 2, 2, -0.01\n";
+    let text = clamped("", "", &(step("*CLOAD\n99, 1, -3.\n") + &step(down)));
+    let found = normals(&text);
+    assert_close(found[0], 3.0, 1e-9);
+    assert_close(found[1], 3.0 + 0.005 * modulus, 1e-9);
+    // Not locked, the section gives way.
+    let found = normals(&text.replace("*BOUNDARY, FIXED\n99, 1, 1\n*CLOAD, OP=NEW\n", ""));
+    assert_close(found[1], 3.0, 1e-9);
+
+    let said = refused(&clamped("1., 1., 0.\n", "", &step("")));
+    assert!(
+        said.contains("*PRE-TENSION SECTION: the vector [1.0, 1.0, 0.0] aside"),
+        "{said}"
+    );
+    let said = refused(&clamped("", "", &step("*BOUNDARY, FIXED\n99, 1, 1\n")));
+    assert!(
+        said.contains("*PRE-TENSION SECTION: `FIXED` in the first step"),
+        "{said}"
+    );
+}
+
 #[test]
 fn keywords_gone_wrong_are_refused_by_line_and_name() {
     let mut missed = Vec::new();
@@ -504,8 +566,36 @@ fn keywords_gone_wrong_are_refused_by_line_and_name() {
             ":28: *MODEL CHANGE: before the first step",
         ),
         (
+            "*PRE-TENSION SECTION, ELEMENT=1, NODE=1\n",
+            ":28: *PRE-TENSION SECTION: `ELEMENT=` is not read: beams",
+        ),
+        (
             "*PRE-TENSION SECTION, NODE=1\n",
-            ":28: *PRE-TENSION SECTION: is not read: preloaded bolts",
+            ":28: *PRE-TENSION SECTION: expected `SURFACE=`",
+        ),
+        (
+            "*PRE-TENSION SECTION, SURFACE=CUT, NODE=1\n",
+            ":28: *PRE-TENSION SECTION: surface `CUT` is not known",
+        ),
+        (
+            "*SURFACE, NAME=CUT\n2, S3\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=1\n",
+            ":30: *PRE-TENSION SECTION: a reference node of elements",
+        ),
+        (
+            "*SURFACE, NAME=CUT\n2, S3\n*NODE\n99, 0, 0\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=99\n",
+            ":32: *PRE-TENSION SECTION: is not read: bolt 0.point: a plane that all cells lie on one side of",
+        ),
+        (
+            "*SURFACE, NAME=CUT\n2\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=99\n",
+            ":29: *SURFACE: a section of a bolt by elements; expected their faces",
+        ),
+        (
+            "*SURFACE, NAME=CUT, TYPE=NODE\n1\n*PRE-TENSION SECTION, SURFACE=CUT, NODE=99\n",
+            ":28: *SURFACE: a section of a bolt by nodes; expected one by faces",
+        ),
+        (
+            "*BOUNDARY, FIXED\n13, 1, 1\n",
+            ":29: *BOUNDARY: `FIXED` is read of nodes of *PRE-TENSION SECTION only",
         ),
         (
             "*GAP, ELSET=UP\n1.\n",

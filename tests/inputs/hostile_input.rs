@@ -5,9 +5,11 @@
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
+use dpana::body::{CellKind, box_mesh, graded};
 use dpana::mesh_file::gmsh;
 use dpana::problem::{ContactProblem, Floating, Operator};
-use dpana::scene::{BareProblem, Scene};
+use dpana::scene::{BareProblem, MeshSource, Scene};
+use dpana::{Status, solve};
 use faer::{Mat, mat};
 use serde_json::{Value, json};
 
@@ -309,4 +311,37 @@ fn a_body_whose_cells_leave_no_digits_is_not_certified() {
         &report.summary(),
         &["not in equilibrium", "bodies[0]", "misplaced unit"],
     );
+}
+
+#[test]
+fn bodies_that_give_way_where_rigid_ones_would_jam_are_told_so() {
+    // Two cells, of which one is drawn out to five times its height, held at two nodes: they can turn about these, which
+    // contact 0 resists by friction alone. Pressed hard enough it would hold a rigid body; nothing presses this one
+    // so, under less than μ ≈ 1.5. A witness that knows rigid bodies alone took that for a wrong answer.
+    let solve_with = |friction: f64| {
+        let scene = serde_json::json!({
+            "bodies": [{
+                "mesh": {"box": {"x": [0, 2], "y": [0, 1], "z": [0, 1], "cells": [2, 1, 1]}},
+                "materials": [{"young": 1000, "poisson": 0.3}],
+                "supports": [{"at": [2, 0, 0], "displacement": [0, -0.01, -0.01]},
+                             {"at": [1, 0, 1], "displacement": [0, -0.01, -0.01]}],
+                "loads": [{"group": "top", "pressure": 1}]
+            }],
+            "contacts": [{"group": "bottom", "friction": friction,
+                          "obstacle": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}}]
+        });
+        let mut scene = Scene::from_json(&scene.to_string(), "").unwrap();
+        let lines =
+            [2.0, 1.0, 1.0].map(|length| graded(0.0, length, length as usize, 1.0).unwrap());
+        let mut mesh = box_mesh(&lines[0], &lines[1], &lines[2], CellKind::Hex8).unwrap();
+        let corner = mesh.nodes.iter_mut().find(|x| **x == [2.0, 0.0, 1.0]);
+        *corner.unwrap() = [2.0, 0.0, 5.0];
+        scene.bodies[0].mesh = MeshSource::Given(mesh);
+        solve(&scene).unwrap()
+    };
+    let gives_way = solve_with(0.3);
+    assert_eq!(gives_way.status(), Status::NoEquilibrium);
+    let failure = gives_way.outcome().failure.as_ref().unwrap();
+    assert!(failure.elastic && failure.proof.work > 0.0, "{failure:?}");
+    assert_eq!(solve_with(1.5).status(), Status::Certified);
 }

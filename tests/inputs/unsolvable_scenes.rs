@@ -236,3 +236,39 @@ fn friction_without_bound_is_a_weld() {
         assert!((found - expected).abs() < 1e-14, "{found} {expected}");
     }
 }
+
+#[test]
+fn bodies_that_glue_alone_holds_have_no_equilibrium_under_a_load_that_nothing_answers() {
+    let block = |name: &str, y: [i32; 2]| {
+        json!({
+            "name": name,
+            "mesh": {"rectangle": {"x": [0, 1], "y": y, "cells": [4, 4]}},
+            "model": "plane_strain",
+            "materials": [{"young": 1000, "poisson": 0.3}]
+        })
+    };
+    let mut scene = json!({
+        "bodies": [block("low", [0, 1]), block("up", [1, 2])],
+        "contacts": [{"body": "up", "group": "bottom", "against": {"body": "low", "group": "top"}}]
+    });
+    for law in [
+        json!("bonded"),
+        json!({"no_separation": {"friction": 0.3}}),
+        json!({"cohesion": {"tension": 5, "shear": 5}}),
+    ] {
+        scene["contacts"][0]["law"] = law.clone();
+        scene["bodies"][1]["loads"] = json!([{"group": "top", "pressure": 1}]);
+        let loaded = solve(&Scene::from_json(&scene.to_string(), "").unwrap()).unwrap();
+        assert_eq!(loaded.status(), Status::NoEquilibrium, "{law}");
+        let failure = loaded.outcome().failure.as_ref().unwrap();
+        assert!(
+            failure.proof.work > 0.0 && failure.proof.least_reaction > 1e3,
+            "{law} {failure:?}"
+        );
+        // Pressed from both sides they hold each other.
+        scene["bodies"][0]["loads"] = json!([{"group": "bottom", "pressure": 1}]);
+        let answered = solve(&Scene::from_json(&scene.to_string(), "").unwrap()).unwrap();
+        assert_eq!(answered.status(), Status::Certified, "{law}");
+        scene["bodies"][0].as_object_mut().unwrap().remove("loads");
+    }
+}

@@ -226,3 +226,37 @@ fn every_shape_of_an_obstacle_is_drawn() {
     assert_eq!(drawn.as_array().map(Vec::len), Some(1));
     assert!(drawn[0].as_array().unwrap().len() > 90);
 }
+
+#[test]
+fn a_rigid_body_turns_about_its_reference_point() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/scenes/tilting_punch.json");
+    let scene = Scene::from_file(&file).unwrap();
+    let solution = solve(&scene).unwrap();
+    let body = &solution.report().unwrap().rigid_bodies[0];
+    let turned = body
+        .rotation
+        .iter()
+        .fold(0.0_f64, |most, w| most.max(w.abs()));
+    assert!(turned > 0.0);
+    let path = page_of(&scene, &folder("page_turned"));
+    let (scene, states) = (elements(&path, "scene"), elements(&path, "state"));
+    let motion = &states[0]["obstacles"][0];
+    let numbers = |value: &serde_json::Value| -> Vec<f64> {
+        let numbers = value.as_array().unwrap().iter();
+        numbers.map(|number| number.as_f64().unwrap()).collect()
+    };
+    let dimension = body.displacement.len();
+    assert_eq!(
+        numbers(&motion["translation"])[..dimension],
+        body.displacement[..]
+    );
+    match dimension {
+        2 => assert_eq!(numbers(&motion["rotation"])[2..], body.rotation[..]),
+        _ => assert_eq!(numbers(&motion["rotation"]), body.rotation),
+    }
+    let about = numbers(&motion["about"]).into_iter();
+    let about = about.zip(numbers(&scene[0]["origin"])).map(|(x, o)| x + o);
+    for (found, stated) in about.zip(&body.reference) {
+        assert!((found - stated).abs() < 1e-12, "{found} {stated}");
+    }
+}

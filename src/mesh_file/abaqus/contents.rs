@@ -36,6 +36,8 @@ pub(crate) struct Contents {
     pub(crate) cells: Directory,
     /// Outer faces of the surfaces, by full name.
     pub(crate) surfaces: BTreeMap<String, BTreeSet<Side>>,
+    /// Faces of the sections of bolts, by full name: of one side, inside or outside.
+    sections: BTreeMap<String, BTreeSet<Side>>,
 }
 
 /// What knows the kind of an element by the name of its type.
@@ -53,6 +55,7 @@ impl Contents {
             elements: Vec::new(),
             cells: Directory::new("element", &flat.scopes),
             surfaces: BTreeMap::new(),
+            sections: BTreeMap::new(),
         };
         let of = |name: &'static str| {
             let cards = flat.cards.iter().enumerate();
@@ -69,12 +72,22 @@ impl Contents {
         for (at, &(scope, card)) in flat.cards.iter().enumerate() {
             contents.read_sets(scope, card, added.get(&at).cloned().unwrap_or_default())?;
         }
+        let across = |(_, (_, card)): (usize, &(usize, &Card<'_>))| card.get("SURFACE").map(bare);
+        let sections: BTreeSet<String> = of("PRE-TENSIONSECTION").filter_map(across).collect();
         let mut outer = None;
         for (_, &(scope, card)) in of("SURFACE") {
+            let name = card.need("NAME")?;
+            let (full, inside) = (
+                contents.cells.full(scope, name),
+                sections.contains(&bare(name)),
+            );
             let outer = outer.get_or_insert_with(|| contents.outer_sides());
-            let sides = contents.read_surface(scope, card, outer)?;
-            let name = contents.cells.full(scope, card.need("NAME")?);
-            if contents.surfaces.insert(name, sides).is_some() {
+            let sides = contents.read_surface(scope, card, (!inside).then_some(outer))?;
+            let surfaces = match inside {
+                true => &mut contents.sections,
+                false => &mut contents.surfaces,
+            };
+            if surfaces.insert(full, sides).is_some() {
                 return Err(card.error("a surface of this name stands before"));
             }
         }
@@ -225,17 +238,19 @@ impl Contents {
         }
     }
 
-    /// The outer faces of a surface by faces, or by nodes.
+    /// The outer faces of a surface by faces, or by nodes; where no outer faces are given, any faces that are named.
     fn read_surface(
         &self,
         scope: usize,
         card: &Card<'_>,
-        outer: &BTreeSet<Side>,
+        outer: Option<&BTreeSet<Side>>,
     ) -> Result<BTreeSet<Side>, Error> {
         card.only(&["NAME", "TYPE", "INTERNAL"])?;
         card.one_of("TYPE", &["ELEMENT", "NODE"])?;
         if card.get("TYPE") == Some("NODE") {
-            return self.around_nodes(scope, card, outer);
+            let within =
+                || card.error("a section of a bolt by nodes; expected one by faces of elements");
+            return self.around_nodes(scope, card, outer.ok_or_else(within)?);
         }
         let mut sides = BTreeSet::new();
         for row in card.rows(scope) {
@@ -245,14 +260,17 @@ impl Contents {
                 let all = cells.iter().flat_map(|&cell| {
                     (1..=self.elements[cell].kind.faces()).map(move |face| (cell, face))
                 });
+                let whole = || row.error("a section of a bolt by elements; expected their faces");
+                let outer = outer.ok_or_else(whole)?;
                 sides.extend(all.filter(|side| outer.contains(side)));
                 continue;
             }
             for cell in cells {
-                sides.insert(
-                    self.side(cell, &face, 'S', outer)
-                        .map_err(|e| row.error(e))?,
-                );
+                let side = match outer {
+                    Some(outer) => self.side(cell, &face, 'S', outer),
+                    None => self.face(cell, &face, 'S'),
+                };
+                sides.insert(side.map_err(|e| row.error(e))?);
             }
         }
         Ok(sides)
@@ -264,10 +282,24 @@ impl Contents {
         row: Row<'_, '_>,
         name: &str,
     ) -> Result<(&String, &BTreeSet<Side>), Error> {
+        self.among(&self.surfaces, row, name)
+    }
+
+    /// The faces of a section of a bolt, by its name.
+    pub(crate) fn section(&self, row: Row<'_, '_>, name: &str) -> Result<&BTreeSet<Side>, Error> {
+        Ok(self.among(&self.sections, row, name)?.1)
+    }
+
+    fn among<'s>(
+        &self,
+        surfaces: &'s BTreeMap<String, BTreeSet<Side>>,
+        row: Row<'_, '_>,
+        name: &str,
+    ) -> Result<(&'s String, &'s BTreeSet<Side>), Error> {
         let name = bare(name);
         let full = self.cells.full(row.scope, &name);
-        let found = self.surfaces.get_key_value(&full);
-        match found.or_else(|| self.surfaces.get_key_value(&name)) {
+        let found = surfaces.get_key_value(&full);
+        match found.or_else(|| surfaces.get_key_value(&name)) {
             Some((_, sides)) if sides.is_empty() => {
                 Err(row.error(format!("surface `{name}` has no outer face")))
             }
@@ -284,24 +316,29 @@ impl Contents {
         letter: char,
         outer: &BTreeSet<Side>,
     ) -> Result<Side, String> {
+        let side = self.face(cell, label, letter)?;
+        match outer.contains(&side) {
+            true => Ok(side),
+            false => Err(format!(
+                "face {label} of element {} lies between two elements; expected an outer face",
+                self.elements[cell].label
+            )),
+        }
+    }
+
+    /// The face of an element behind a label, which may be an inner one.
+    fn face(&self, cell: usize, label: &str, letter: char) -> Result<Side, String> {
         let element = &self.elements[cell];
         let number = label.strip_prefix(letter).and_then(|n| n.parse().ok());
         let face = number.filter(|&number| element.kind.face(number).is_some());
-        let Some(face) = face else {
-            return Err(format!(
+        face.map(|face| (cell, face)).ok_or_else(|| {
+            format!(
                 "`{}` is no face of element {}; expected {letter}1 to {letter}{}",
                 quote(label),
                 element.label,
                 element.kind.faces()
-            ));
-        };
-        match outer.contains(&(cell, face)) {
-            true => Ok((cell, face)),
-            false => Err(format!(
-                "face {label} of element {} lies between two elements; expected an outer face",
-                element.label
-            )),
-        }
+            )
+        })
     }
 
     /// The outer faces all of whose corners are in a surface by nodes.

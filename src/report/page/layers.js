@@ -204,8 +204,7 @@ class Scene {
     this.model.pairs.forEach((pair, index) => {
       if (!pair.obstacle) return;
       const made = this.drawn(pair.obstacle);
-      const motion = look.state.stored.obstacles[index] || [0, 0, 0];
-      const positions = made.positions.map((x, i) => x + look.scale * motion[i % 3]);
+      const positions = carried(made.positions, look.state.stored.obstacles[index], look.scale);
       const solid = this.model.dimension === 2 ? 1 : 0.35;
       const hidden = this.model.dimension === 3 && look.field.contact;
       if (!hidden) layers.push({ positions, indices: made.indices, colour: RIGID, alpha: solid, shade: this.model.dimension === 3 });
@@ -316,4 +315,24 @@ function grid(rows, every) {
     if (i + 1 < width && j + 1 < rows.length) indices.push(at, at + 1, at + width + 1, at, at + width + 1, at + width);
   }));
   return { positions: Float32Array.from(rows.flat(2)), indices: Uint32Array.from(indices), border: Uint32Array.from(border) };
+}
+
+/* Positions that a rigid body carries along, its displacement and angle enlarged. */
+function carried(positions, motion, scale) {
+  if (!motion) return positions;
+  const { translation, rotation, about } = motion;
+  const angle = scale * Math.hypot(...rotation);
+  const axis = rotation.map((w) => (angle ? (scale * w) / angle : 0));
+  const [sine, cosine] = [Math.sin(angle), Math.cos(angle)];
+  const made = new Float32Array(positions.length);
+  for (let i = 0; i < positions.length; i += 3) {
+    const arm = about.map((c, k) => positions[i + k] - c);
+    const along = (1 - cosine) * arm.reduce((sum, x, k) => sum + x * axis[k], 0);
+    for (let k = 0; k < 3; k++) {
+      const [l, m] = [(k + 1) % 3, (k + 2) % 3];
+      const turned = cosine * arm[k] + sine * (axis[l] * arm[m] - axis[m] * arm[l]) + along * axis[k];
+      made[i + k] = about[k] + turned + scale * translation[k];
+    }
+  }
+  return made;
 }

@@ -37,7 +37,7 @@ use self::units::Symbols;
 use super::svg::escaped;
 use super::{Report, replace_file};
 use crate::body::{Body, Facet, Model};
-use crate::contact::{ContactPair, Opposite};
+use crate::contact::{ContactPair, Opposite, RigidMotion};
 use crate::error::{Error, check_length};
 
 const PAGE: &str = include_str!("page.html");
@@ -81,8 +81,8 @@ pub(crate) struct PageState<'a> {
     pub(crate) facets: &'a [(usize, Facet)],
     /// What may touch what.
     pub(crate) pairs: &'a [ContactPair],
-    /// Motion of the obstacle per pair, in metre; missing ones stand still.
-    pub(crate) obstacles: &'a [[f64; 3]],
+    /// Motion of the obstacle per pair; missing ones stand still.
+    pub(crate) obstacles: &'a [RigidMotion],
     /// Coefficient of friction, and gap before loading in metre, per contact.
     pub(crate) friction: &'a [f64],
     /// See `friction`.
@@ -136,12 +136,18 @@ impl Page {
                 let place = format!("{}: nodes", body.name);
                 check_length(&place, skin.nodes, body.mesh.nodes.len())?;
             }
-            let state = element("state", &DrawnState::new(parts, &self.skins));
+            let state = element(
+                "state",
+                &DrawnState::new(parts, &self.skins, middle(parts.bodies)),
+            );
             return self.append(&state);
         }
         let mut skins: Vec<Skin> = parts.bodies.iter().map(Skin::new).collect();
         let scene = element("scene", &DrawnScene::new(parts, &mut skins));
-        let state = element("state", &DrawnState::new(parts, &skins));
+        let state = element(
+            "state",
+            &DrawnState::new(parts, &skins, middle(parts.bodies)),
+        );
         let viewer = viewer(&parts.report.title);
         replace_file(&self.path, &[viewer, scene, state].concat())?;
         self.skins = skins;

@@ -25,8 +25,16 @@ pub(super) struct DrawnState<'a> {
     notes: &'a [String],
     bodies: Vec<BodyState>,
     contacts: ContactState,
-    /// Motion of the obstacle of every pair, in metre.
-    obstacles: &'a [[f64; 3]],
+    /// Motion of the obstacle of every pair.
+    obstacles: Vec<DrawnMotion>,
+}
+
+/// Translation in metre, rotation in radian, and the point that it is about, relative to the scene's origin.
+#[derive(Debug, Serialize)]
+struct DrawnMotion {
+    translation: [f64; 3],
+    rotation: [f64; 3],
+    about: [f64; 3],
 }
 
 /// Fields at the drawn points of a body.
@@ -53,7 +61,7 @@ struct ContactState {
 }
 
 impl<'a> DrawnState<'a> {
-    pub(super) fn new(parts: &PageState<'a>, skins: &[Skin]) -> Self {
+    pub(super) fn new(parts: &PageState<'a>, skins: &[Skin], origin: [f64; 3]) -> Self {
         let report = parts.report;
         let bodies = parts.displacements.iter().zip(parts.stresses).zip(skins);
         let dimension = report.size.dimension;
@@ -92,7 +100,13 @@ impl<'a> DrawnState<'a> {
             notes: &report.notes,
             bodies: bodies.collect(),
             contacts: ContactState::new(parts),
-            obstacles: parts.obstacles,
+            obstacles: (parts.obstacles.iter())
+                .map(|motion| DrawnMotion {
+                    translation: motion.translation,
+                    rotation: motion.rotation,
+                    about: [0, 1, 2].map(|axis| motion.about[axis] - origin[axis]),
+                })
+                .collect(),
         }
     }
 }

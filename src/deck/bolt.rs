@@ -1,0 +1,206 @@
+//! Bolts under preload: `*PRE-TENSION SECTION` across the solid elements of a shank.
+//!
+//! The first degree of freedom of its reference node is the shortening of the bolt, a force there is what the bolt
+//! carries, and `*BOUNDARY, FIXED` locks it. Both are along a vector that is stated, or along the normal out of
+//! the elements whose faces are named; along that normal a positive one pulls.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::acting::largest;
+use super::assemble::{Building, Stock, Tables};
+use super::load::Slot;
+use super::parts::Parts;
+use super::statement::Statement;
+use super::transform::{dot, numbers};
+use crate::body::{Facet, Group};
+use crate::error::Error;
+use crate::mesh_file::abaqus::{Card, Contents, Side};
+use crate::scene::SceneBolt;
+
+/// Sine of the angle by which a stated vector may lie off the normal of the section.
+const ASIDE: f64 = 1e-3;
+
+/// A section.
+#[derive(Debug)]
+pub(super) struct Section<'a, 'c> {
+    /// Faces on one side of the cut.
+    sides: Vec<Side>,
+    /// The vector that is stated.
+    direction: Option<[f64; 3]>,
+    /// The connected part that is cut.
+    pub(super) part: usize,
+    /// Where it is stated.
+    card: &'c Card<'a>,
+}
+
+/// All sections of a deck, and their reference nodes.
+#[derive(Debug, Default)]
+pub(super) struct Sections<'a, 'c> {
+    pub(super) sections: Vec<Section<'a, 'c>>,
+    of_node: BTreeMap<usize, usize>,
+}
+
+impl<'a, 'c> Sections<'a, 'c> {
+    pub(super) fn new(
+        statement: &Statement<'a, 'c>,
+        contents: &Contents,
+        parts: &Parts,
+    ) -> Result<Self, Error> {
+        let mut found = Self::default();
+        let model = statement.model.iter();
+        for &(scope, card) in model.filter(|(_, card)| card.name == "PRE-TENSIONSECTION") {
+            if card.get("ELEMENT").is_some() {
+                return Err(card.error("`ELEMENT=` is not read: beams"));
+            }
+            card.only(&["SURFACE", "NODE"])?;
+            let head = card.head(scope);
+            let sides = contents.section(head, card.need("SURFACE")?)?;
+            let [node] = contents.nodes.members(head, card.need("NODE")?)?[..] else {
+                return Err(card.error("`NODE=`: expected one node"));
+            };
+            if parts.of_node[node].is_some() || found.of_node.contains_key(&node) {
+                return Err(card.error(
+                    "a reference node of elements, or of another section; expected a node of its own",
+                ));
+            }
+            let mut of_sides = sides.iter().map(|side| parts.of_cell[side.0]);
+            let part = of_sides
+                .next()
+                .filter(|part| of_sides.all(|other| other == *part));
+            let apart = || card.error("expected faces of one connected part");
+            let direction = match card.rows(scope).next() {
+                Some(_) => Some(numbers(card.row("a vector")?)?),
+                None => None,
+            };
+            found.of_node.insert(node, found.sections.len());
+            found.sections.push(Section {
+                sides: sides.iter().copied().collect(),
+                direction,
+                part: part.ok_or_else(apart)?,
+                card,
+            });
+        }
+        Ok(found)
+    }
+
+    /// The section whose reference node it is.
+    pub(super) fn of(&self, node: usize) -> Option<usize> {
+        self.of_node.get(&node).copied()
+    }
+}
+
+impl Section<'_, '_> {
+    /// Whether what is stated pulls (1) or presses (−1), beside the normal out of the faces.
+    fn sign(&self, outward: [f64; 3]) -> Result<f64, Error> {
+        let Some(stated) = self.direction else {
+            return Ok(1.0);
+        };
+        let cosine = dot(stated, outward) / dot(stated, stated).sqrt();
+        match 1.0 - cosine * cosine < ASIDE * ASIDE {
+            true => Ok(cosine.signum()),
+            false => Err(self.card.error(format!(
+                "the vector {stated:?} aside of the section's normal {outward:?}; expected one along it"
+            ))),
+        }
+    }
+}
+
+impl Stock<'_, '_> {
+    /// Bolts.
+    pub(super) fn add_bolts(
+        &self,
+        bodies: &mut [Building],
+        factors: &mut Tables,
+    ) -> Result<(), Error> {
+        for (number, section) in self.sections.sections.iter().enumerate() {
+            let building = &mut bodies[section.part];
+            let at = building.body.bolts.len();
+            let (mut bolt, sign) = building.bolt(&self.contents, number, section)?;
+            let values = |slot: fn(usize) -> Slot| self.history.values.get(&slot(number)).cloned();
+            let place = format!("bodies[{}].bolts[{at}]", section.part);
+            let mut tabulate = |key: &str, values: &[f64]| {
+                let stated = largest(values);
+                if stated != 0.0 {
+                    self.tabulate(format!("{place}.{key}"), (values, stated), factors);
+                }
+                Some(sign * stated)
+            };
+            if let Some(shortening) = values(Slot::Shortening) {
+                bolt.shortening = tabulate("shortening", &shortening);
+            } else {
+                let none = || vec![0.0; self.history.instants.len()];
+                let mut force = values(Slot::Preload).unwrap_or_else(none);
+                let locked = values(Slot::Lock);
+                let locked = locked.and_then(|there| there.iter().position(|lock| *lock > 0.0));
+                if let Some(first) = locked {
+                    let before = first.checked_sub(1).ok_or_else(|| {
+                        section.card.error(
+                            "`FIXED` in the first step; expected it after a step with a force",
+                        )
+                    })?;
+                    let last = force[before];
+                    force[first..].fill(last);
+                    bolt.locked_from = Some(self.history.instants[before]);
+                }
+                bolt.force = tabulate("force", &force);
+            }
+            building.body.bolts.push(bolt);
+        }
+        Ok(())
+    }
+}
+
+impl Building {
+    /// A bolt that is cut along a section, and the sign of what is stated of it.
+    fn bolt(
+        &mut self,
+        contents: &Contents,
+        number: usize,
+        section: &Section<'_, '_>,
+    ) -> Result<(SceneBolt, f64), Error> {
+        let dimension = self.mesh.dimension;
+        let sides = section.sides.iter();
+        let facets: Vec<Facet> = sides.map(|&side| self.facet(contents, side)).collect();
+        let (mut area, mut point, mut along) = (0.0, [0.0; 3], [0.0; 3]);
+        for facet in &facets {
+            let geometry = self.mesh.facet_geometry(facet);
+            area += geometry.area;
+            for axis in 0..3 {
+                let nodes = facet.nodes.iter().zip(&geometry.weights);
+                let moment: f64 = nodes
+                    .map(|(&node, w)| w * self.mesh.nodes[node][axis])
+                    .sum();
+                point[axis] += moment;
+                along[axis] += geometry.area * geometry.normal[axis];
+            }
+        }
+        let (point, size) = (point.map(|x| x / area), dot(along, along).sqrt());
+        let axis = along.map(|n| n / size);
+        let nodes: BTreeSet<usize> = facets.into_iter().flat_map(|facet| facet.nodes).collect();
+        let around = |&cell: &usize| self.mesh.cell(cell).nodes.iter().any(|n| nodes.contains(n));
+        let cells: Vec<usize> = (0..self.mesh.cell_count()).filter(around).collect();
+        let (name, group) = (format!("bolt {number}"), format!("cells of bolt {number}"));
+        // What the scene will do, here where the deck's line is known.
+        let mut parted = self.mesh.clone();
+        let cut = parted.cut(&name, &name, &cells, [point, axis]);
+        cut.map_err(|error| section.card.error(format!("is not read: {error}")))?;
+        let faces = match &parted.groups[&format!("{name}.own")] {
+            Group::Facets(facets) => facets.len(),
+            _ => 0,
+        };
+        if faces != section.sides.len() {
+            return Err(section.card.error(format!(
+                "a surface of {} faces where the plane through them parts {faces}; expected all faces of the section",
+                section.sides.len()
+            )));
+        }
+        self.mesh.groups.insert(group.clone(), Group::Cells(cells));
+        let sign = section.sign(axis)?;
+        let [point, axis] = [point, axis].map(|x| x[..dimension].to_vec());
+        let bolt = SceneBolt {
+            force: None,
+            ..SceneBolt::preloaded(&name, &group, &point, &axis, 0.0)
+        };
+        Ok((bolt, sign))
+    }
+}
