@@ -4,7 +4,8 @@
 
 use std::error::Error;
 use std::process::Command;
-use std::time::Instant;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+use std::time::{Duration, Instant};
 
 use dpana::kkt::{BodyState, SceneGeometry, Surroundings};
 use dpana::{Scene, Status};
@@ -12,7 +13,8 @@ use dpana::{Scene, Status};
 /// Prints a Markdown table with a row per number of cells along a side.
 ///
 /// Only the first size where `--quick` is asked for, or where `cargo test` runs the bench
-/// (`cargo bench` says `--bench`); `--cells N` is for one size, and `--estimate` for what that will take.
+/// (`cargo bench` says `--bench`); `--cells N` is for one size, and `--estimate` for what that will take. With
+/// `--stages` the largest memory and the seconds of each stage follow, on Linux.
 pub(crate) fn table(
     sizes: &[usize],
     scene: impl Fn(usize) -> Result<Scene, Box<dyn Error>>,
@@ -28,6 +30,9 @@ pub(crate) fn table(
         Ok(Some(size?))
     };
     if let Some(size) = number("--size")? {
+        if has("--stages") {
+            std::thread::spawn(watch);
+        }
         println!("{}", row(&scene(size)?, size)?);
         return Ok(());
     }
@@ -44,6 +49,7 @@ pub(crate) fn table(
     for size in sizes {
         let child = Command::new(std::env::current_exe()?)
             .args(["--size", &size.to_string()])
+            .args(has("--stages").then_some("--stages"))
             .status()?;
         if !child.success() {
             return Err(format!("size {size}: {child}").into());
@@ -140,10 +146,36 @@ fn row(scene: &Scene, size: usize) -> Result<String, Box<dyn Error>> {
         format!("{:.1e}", report.certificate.natural_map),
         format!("{judging:.3}"),
         format!("{:.3}", judging / seconds.total),
-        peak_memory().map_or("–".to_owned(), |peak| format!("{peak:.0}")),
+        peak_memory().map_or("–".to_owned(), |peak| {
+            format!("{:.0}", peak.max(PEAK.load(Relaxed) as f64))
+        }),
     ];
     Ok(format!("| {} |", cells.join(" | ")))
 }
+
+/// Prints the largest memory that each stage held, and when it was over, as the next begins.
+fn watch() {
+    let (start, mut stage) = (Instant::now(), dpana::stage::progress().stage);
+    let mut most = 0.0_f64;
+    loop {
+        std::thread::sleep(Duration::from_millis(1));
+        let now = dpana::stage::progress().stage;
+        if now != stage {
+            let peak = peak_memory().unwrap_or(f64::NAN);
+            let seconds = start.elapsed().as_secs_f64();
+            #[allow(clippy::print_stderr)]
+            eprintln!("{}: {peak:.0} MiB, until {seconds:.2} s", stage.name());
+            stage = now;
+            // The largest memory of all is asked for at the end.
+            most = most.max(peak);
+            PEAK.store(most as u64, Relaxed);
+            let _ = std::fs::write("/proc/self/clear_refs", "5");
+        }
+    }
+}
+
+/// Largest memory before the stage that runs, in MiB.
+static PEAK: AtomicU64 = AtomicU64::new(0);
 
 /// Largest memory this process ever held, in MiB, where the system tells.
 fn peak_memory() -> Option<f64> {

@@ -156,26 +156,36 @@ impl<'a> Finish<'a> {
             })
             .collect();
         let mut next = self.opened(from, &laws);
-        let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.block.clone()).collect();
+        for law in &laws {
+            let local = self.local(law.contact, &next.reaction, &next.beyond, springs);
+            self.add_to(&mut next, law, law.short_of_bound(local.reaction));
+        }
         // Before there is another as large.
         self.last = None;
-        let matrix = Factored::new(self.matrix(&laws, &unknowns, springs.softness));
+        let matrix = Factored::new(self.matrix(&laws, springs.softness));
         let solution = matrix.solve(&self.right_side(&laws, &next, springs));
         self.last = Some(matrix);
         if !solution.iter().all(|x| x.is_finite()) {
             return None;
         }
-        self.add(&mut next, &unknowns, &solution);
+        self.add(&mut next, &laws, &solution);
         Some(next)
     }
 
-    /// Adds scaled reactions at unknowns, and a drift behind them.
-    pub(super) fn add(&self, point: &mut Point, unknowns: &[usize], solution: &Col<f64>) {
-        for (&unknown, scaled) in unknowns.iter().zip(solution.iter()) {
+    /// Adds scaled reactions to a contact's.
+    pub(super) fn add_to(&self, point: &mut Point, law: &Law, change: [f64; 3]) {
+        for (unknown, scaled) in law.block.clone().zip(change) {
+            self.push(point, unknown, self.roots[unknown] * scaled);
+        }
+    }
+
+    /// Adds scaled reactions, so much along each direction in which they are free, and a drift behind them.
+    pub(super) fn add(&self, point: &mut Point, laws: &[Law], solution: &Col<f64>) {
+        for (unknown, scaled) in laws::spread(laws, solution.iter().copied()) {
             self.push(point, unknown, self.roots[unknown] * scaled);
         }
         if let Some(rigid) = &self.rigid {
-            let drift = solution.iter().skip(unknowns.len());
+            let drift = solution.iter().skip(laws::free(laws));
             for (k, along) in drift.enumerate() {
                 point.drift[k] += along;
                 add(&mut point.beyond, *along, rigid.velocities.col_as_slice(k));
@@ -200,16 +210,21 @@ impl<'a> Finish<'a> {
 
     /// `Rᵀ t + e − σ (α − α_k)` along the velocities.
     fn imbalance(&self, at: &Point, softness: f64) -> Vec<f64> {
-        let Some(rigid) = &self.rigid else {
-            return Vec::new();
-        };
-        let loads = rigid.load.iter().zip(&at.drift).enumerate();
-        loads
-            .map(|(k, (e, drift))| {
-                let column = rigid.velocities.col_as_slice(k).iter().zip(&at.reaction);
-                e + column.map(|(v, t)| v * t).sum::<f64>() - softness * drift
-            })
+        let load = self.rigid.iter().flat_map(|rigid| &rigid.load);
+        let parts = load.zip(self.carried(&at.reaction)).zip(&at.drift);
+        parts
+            .map(|((e, carried), drift)| e + carried - softness * drift)
             .collect()
+    }
+
+    /// `Rᵀ t` along the velocities.
+    pub(super) fn carried(&self, reaction: &[f64]) -> Vec<f64> {
+        let velocities = self.rigid.iter().flat_map(|rigid| {
+            let each = 0..rigid.velocities.ncols();
+            each.map(|k| rigid.velocities.col_as_slice(k))
+        });
+        let along = velocities.map(|column| column.iter().zip(reaction).map(|(v, t)| v * t).sum());
+        along.collect()
     }
 
     /// Number of independent rigid motions.
@@ -272,28 +287,20 @@ impl<'a> Finish<'a> {
         }
     }
 
-    /// Matrix of (D4) with (D5): reactions of contacts that are not open, then rigid motions.
-    pub(super) fn matrix(&self, laws: &[Law], unknowns: &[usize], softness: f64) -> Mat<f64> {
-        let (reactions, motions) = (unknowns.len(), self.velocities());
-        let mut matrix = Mat::zeros(reactions + motions, reactions + motions);
-        for (j, &unknown) in unknowns.iter().enumerate() {
-            let moved = self.problem.compliance().col_as_slice(unknown);
-            let scale = self.roots[unknown];
-            let moved = |k: usize| self.roots[k] * moved[k] * scale;
-            let rows = laws::rows(laws, moved, Some((unknown, softness)));
-            fill(matrix.col_as_slice_mut(j), rows);
-        }
+    /// Matrix of (D4) with (D5): reactions of contacts that are not open, as far as they are free, then rigid motions.
+    pub(super) fn matrix(&self, laws: &[Law], softness: f64) -> Mat<f64> {
+        let (reactions, motions) = (laws::free(laws), self.velocities());
+        let scaled = (self.problem, &self.roots[..]);
+        let mut matrix = laws::matrix(laws, scaled, (1.0, softness), motions);
         if let Some(rigid) = &self.rigid {
             for k in 0..motions {
                 let velocity = rigid.velocities.col_as_slice(k);
+                let moved = |at: usize| self.roots[at] * velocity[at];
                 let column = matrix.col_as_slice_mut(reactions + k);
-                fill(
-                    column,
-                    laws::rows(laws, |k| self.roots[k] * velocity[k], None),
-                );
+                fill(column, laws::rows(laws, moved));
                 column[reactions + k] = -softness;
-                for (j, &unknown) in unknowns.iter().enumerate() {
-                    matrix[(reactions + k, j)] = velocity[unknown] * self.roots[unknown];
+                for (j, along) in laws::along(laws, moved).enumerate() {
+                    matrix[(reactions + k, j)] = along;
                 }
             }
         }

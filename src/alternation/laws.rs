@@ -1,6 +1,16 @@
 //! What one contact does, and what its law says (D4), all scaled: `t/√ρ` and `√ρ (u − g)`.
 
+//!
+//! Along the direction d of a slip friction is what its bound says, whatever moves. It is taken out of the equations:
+//!
+//! ```text
+//! (D17)  d · t_T = known − s' t_N:   unknown are t_N, which takes d · t_T along, and t_T across d
+//! ```
+
 use std::ops::Range;
+
+use faer::Mat;
+use rayon::prelude::*;
 
 use crate::problem::{ContactProblem, Limits};
 
@@ -42,16 +52,27 @@ enum Tangents {
     },
 }
 
-/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = known`, a row per unknown.
+/// (D4) of one contact that is not open: `on_reaction · t + on_displacement · (u − g) = 0`, a row per direction in which
+/// its reaction is free (D17).
 #[derive(Clone)]
 pub(super) struct Law {
     pub(super) contact: usize,
     pub(super) block: Range<usize>,
+    free: usize,
+    directions: [[f64; 3]; 3],
     on_reaction: [[f64; 3]; 3],
     on_displacement: [[f64; 3]; 3],
-    known: [f64; 3],
-    /// What more of μ asks for.
-    on_friction: [f64; 3],
+    bound: Option<Bound>,
+}
+
+/// Friction along a slip (D17).
+#[derive(Clone, Copy)]
+struct Bound {
+    direction: [f64; 2],
+    slope: f64,
+    known: f64,
+    /// What more of μ takes from it.
+    shrinking: f64,
 }
 
 /// A contact that may do one thing or another next.
@@ -154,14 +175,17 @@ impl Local {
                 tangents: Tangents::Stick,
             };
         }
-        let size = if size > 0.0 { size } else { 1.0 };
+        let (direction, ratio) = match size > 0.0 {
+            true => ([trial[1] / size, trial[2] / size], bound / size),
+            false => ([1.0, 0.0], bound),
+        };
         let slope = limits.slope(trial[0]);
         State {
             closed,
             tangents: Tangents::Slip {
-                direction: [trial[1] / size, trial[2] / size],
+                direction,
                 bound,
-                ratio: bound / size,
+                ratio,
                 slope,
                 constant: bound + slope * trial[0],
             },
@@ -193,101 +217,183 @@ impl Local {
     }
 
     fn law_of(&self, state: State, contact: usize, block: Range<usize>) -> Option<Law> {
-        let mut on_friction = [0.0; 3];
-        let (mut on_reaction, mut on_displacement) = ([[0.0; 3]; 3], [[0.0; 3]; 3]);
-        let mut known = [0.0; 3];
-        match state.closed {
-            true => on_displacement[0][0] = 1.0,
-            false => on_reaction[0][0] = 1.0,
+        let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let mut law = Law {
+            contact,
+            free: block.len(),
+            block,
+            directions: units,
+            on_reaction: [[0.0; 3]; 3],
+            on_displacement: units,
+            bound: None,
+        };
+        if !state.closed {
+            (law.on_reaction[0], law.on_displacement[0]) = (units[0], [0.0; 3]);
         }
         match state.tangents {
             Tangents::Free => return None,
-            Tangents::Stick => (on_displacement[1][1], on_displacement[2][2]) = (1.0, 1.0),
             Tangents::Slip {
-                direction,
+                direction: [x, y],
                 ratio,
                 slope,
                 constant,
                 ..
-            } => {
-                on_friction = [0, 1, 2].map(|k| match k {
-                    0 => 0.0,
-                    k => direction[k - 1] * self.reaction[0],
+            } if law.free > 1 => {
+                law.free -= 1;
+                law.directions[0] = [1.0, -slope * x, -slope * y];
+                law.directions[1] = [0.0, -y, x];
+                let across = law.directions[1];
+                law.on_reaction[1] = across.map(|e| (1.0 - ratio) * e);
+                law.on_displacement[1] = across.map(|e| self.step * ratio * e);
+                law.bound = Some(Bound {
+                    direction: [x, y],
+                    slope,
+                    known: constant,
+                    shrinking: self.reaction[0],
                 });
-                for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let unit = if a == b { 1.0 } else { 0.0 };
-                    let m = ratio * (unit - direction[a] * direction[b]);
-                    on_reaction[1 + a][0] = slope * direction[a];
-                    on_reaction[1 + a][1 + b] = unit - m;
-                    on_displacement[1 + a][1 + b] = self.step * m;
-                    known[1 + a] = constant * direction[a];
-                }
             }
+            _ => {}
         }
-        Some(Law {
-            contact,
-            block,
-            on_reaction,
-            on_displacement,
-            known,
-            on_friction,
-        })
+        Some(law)
     }
 }
 
 impl Law {
-    /// Minus what a state leaves of the law.
-    pub(super) fn missing(&self, at: &Local) -> [f64; 3] {
-        [0, 1, 2].map(|row| {
-            let forces = dot(self.on_reaction[row], at.reaction);
-            self.known[row] - forces - dot(self.on_displacement[row], at.beyond)
+    /// What belongs to its own unknowns.
+    fn local(&self, of: impl Fn(usize) -> f64) -> [f64; 3] {
+        let mut local = [0.0; 3];
+        let unknowns = local.iter_mut().zip(self.block.clone());
+        unknowns.for_each(|(own, unknown)| *own = of(unknown));
+        local
+    }
+
+    /// Directions in which its reaction is free.
+    fn directions(&self) -> &[[f64; 3]] {
+        &self.directions[..self.free]
+    }
+
+    /// Its rows for what moves it by so much, and changes its reaction.
+    fn rows(&self, moved: [f64; 3], reaction: [f64; 3]) -> impl Iterator<Item = f64> {
+        let rows = self.on_reaction.iter().zip(&self.on_displacement);
+        rows.take(self.free)
+            .map(move |(force, motion)| dot(*force, reaction) + dot(*motion, moved))
+    }
+
+    /// By what its reaction misses its bound along the slip (D17).
+    pub(super) fn short_of_bound(&self, reaction: [f64; 3]) -> [f64; 3] {
+        self.bound.map_or([0.0; 3], |bound| {
+            let [x, y] = bound.direction;
+            let along = x * reaction[1] + y * reaction[2];
+            let short = bound.known - bound.slope * reaction[0] - along;
+            [0.0, short * x, short * y]
         })
     }
 
-    /// Minus what displacements and friction that change ask of its rows.
-    pub(super) fn asked(&self, moved: [f64; 3], friction: f64) -> [f64; 3] {
-        [0, 1, 2]
-            .map(|row| -dot(self.on_displacement[row], moved) - friction * self.on_friction[row])
+    /// How its reaction changes along the slip as friction does.
+    pub(super) fn shrinks(&self, friction: f64) -> [f64; 3] {
+        self.bound.map_or([0.0; 3], |bound| {
+            let by = -friction * bound.shrinking;
+            [0.0, by * bound.direction[0], by * bound.direction[1]]
+        })
     }
 
-    /// Its rows for a unit of something that moves the contact, and that may be one of its own reactions.
-    pub(super) fn rows(&self, moved: [f64; 3], own: Option<usize>) -> [f64; 3] {
-        [0, 1, 2].map(|row| {
-            let force = own.map_or(0.0, |own| self.on_reaction[row][own]);
-            force + dot(self.on_displacement[row], moved)
-        })
+    /// Minus what a state leaves of its rows.
+    fn missing(&self, at: Local) -> impl Iterator<Item = f64> {
+        self.rows(at.beyond, at.reaction).map(|left| -left)
     }
 }
 
-/// Rows of all laws for something that moves each unknown by `moved`, scaled, and that may be the own reaction of one,
-/// which moves it by so much more.
+/// Rows of all laws for something that moves each unknown by `moved`, scaled.
 pub(super) fn rows<'a>(
     laws: &'a [Law],
     moved: impl Fn(usize) -> f64 + 'a,
-    own: Option<(usize, f64)>,
+) -> impl Iterator<Item = f64> + 'a {
+    laws.iter()
+        .flat_map(move |law| law.rows(law.local(&moved), [0.0; 3]))
+}
+
+/// How far something that moves each unknown by `moved`, scaled, moves along each direction in which reactions are free.
+pub(super) fn along<'a>(
+    laws: &'a [Law],
+    moved: impl Fn(usize) -> f64 + 'a,
 ) -> impl Iterator<Item = f64> + 'a {
     laws.iter().flat_map(move |law| {
-        let (mut local, mut place) = ([0.0; 3], None);
-        for (at, unknown) in law.block.clone().enumerate() {
-            local[at] = moved(unknown);
-            if let Some((_, more)) = own.filter(|(own, _)| *own == unknown) {
-                local[at] += more;
-                place = Some(at);
-            }
-        }
-        law.rows(local, place).into_iter().take(law.block.len())
+        let local = law.local(&moved);
+        law.directions()
+            .iter()
+            .map(move |direction| dot(*direction, local))
     })
 }
 
-/// Minus what a state leaves of all laws.
+/// Changes of reactions, scaled, by unknown, of so much along each direction in which they are free.
+pub(super) fn spread<'a>(
+    laws: &'a [Law],
+    amounts: impl Iterator<Item = f64> + 'a,
+) -> impl Iterator<Item = (usize, f64)> + 'a {
+    let mut amounts = amounts;
+    laws.iter().flat_map(move |law| {
+        let mut change = [0.0; 3];
+        for (direction, amount) in law.directions().iter().zip(&mut amounts) {
+            (0..3).for_each(|k| change[k] += amount * direction[k]);
+        }
+        law.block.clone().zip(change)
+    })
+}
+
+/// Number of directions in which reactions are free.
+pub(super) fn free(laws: &[Law]) -> usize {
+    laws.iter().map(|law| law.free).sum()
+}
+
+/// The matrix of all laws, with room for `more` rows and columns: a column per direction, for contacts that reactions
+/// move by `part` of what G says, and by `softness` on their own.
+pub(super) fn matrix(
+    laws: &[Law],
+    (problem, roots): (&ContactProblem, &[f64]),
+    (part, softness): (f64, f64),
+    more: usize,
+) -> Mat<f64> {
+    let size = free(laws) + more;
+    let mut matrix = Mat::zeros(size, size);
+    let directions = laws.iter().flat_map(|law| {
+        let each = law.directions().iter();
+        each.map(move |direction| (law, *direction))
+    });
+    let directions: Vec<(&Law, [f64; 3])> = directions.collect();
+    let columns = matrix.as_mut().par_col_iter_mut().zip(&directions);
+    columns.for_each(|(mut column, &(own, direction))| {
+        let mut moved = vec![0.0; roots.len()];
+        for (at, along) in own.block.clone().zip(direction) {
+            if along != 0.0 {
+                let force = part * roots[at] * along;
+                let moved = moved.iter_mut().zip(problem.compliance().col_as_slice(at));
+                moved.for_each(|(sum, entry)| *sum += force * entry);
+            }
+        }
+        let moved = |at: usize| roots[at] * moved[at];
+        let mut row = 0;
+        for law in laws {
+            let (mut moved, mut reaction) = (law.local(&moved), [0.0; 3]);
+            if law.contact == own.contact {
+                reaction = direction;
+                (0..3).for_each(|k| moved[k] += softness * direction[k]);
+            }
+            for entry in law.rows(moved, reaction) {
+                column[row] = entry;
+                row += 1;
+            }
+        }
+    });
+    matrix
+}
+
+/// Minus what a state leaves of all rows.
 pub(super) fn missing<'a>(
     laws: &'a [Law],
     local: impl Fn(usize) -> Local + 'a,
 ) -> impl Iterator<Item = f64> + 'a {
-    laws.iter().flat_map(move |law| {
-        let missing = law.missing(&local(law.contact)).into_iter();
-        missing.take(law.block.len())
-    })
+    laws.iter()
+        .flat_map(move |law| law.missing(local(law.contact)))
 }
 
 /// What the natural map leaves of all contacts, as the root of an energy.
@@ -349,6 +455,7 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     /// With μ = ½ between scaled numbers, without springs.
@@ -387,12 +494,12 @@ mod tests {
             let reaction = [-4.0 - 2.0 * h, t * d[0], t * d[1]];
             local(reaction, [0.0, -u * d[0], -u * d[1]])
         };
-        let law = at(0.0).law(0, 0..3);
+        let law = at(0.0).law(0, 0..3).unwrap();
         let size = |h: f64| {
-            let missing = law
-                .as_ref()
-                .map_or([f64::NAN; 3], |law| law.missing(&at(h)));
-            missing.iter().fold(0.0_f64, |size, x| size.hypot(*x))
+            let short = law.short_of_bound(at(h).reaction);
+            law.missing(at(h))
+                .chain(short)
+                .fold(0.0_f64, |size, x| size.hypot(x))
         };
         assert!(size(0.0) < 1e-14);
         // Second order: a tenth of the step misses a hundredth.

@@ -18,7 +18,7 @@ use faer::Col;
 use super::Outcome;
 use super::condition::Factored;
 use super::finish::{Finish, Point, Springs};
-use super::laws::{Edge, Law, Local};
+use super::laws::{self, Edge, Law, Local};
 use crate::error::{Error, check_finite, check_length};
 use crate::problem::ContactProblem;
 
@@ -114,7 +114,6 @@ struct Linear {
 /// The laws of contacts that are not open, factorised.
 struct System {
     laws: Vec<Law>,
-    unknowns: Vec<usize>,
     matrix: Factored,
 }
 
@@ -243,13 +242,8 @@ impl<'a> Linearised<'a> {
     }
 
     fn factorised(&self, laws: Vec<Law>) -> System {
-        let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.block.clone()).collect();
-        let matrix = Factored::new(self.finish.matrix(&laws, &unknowns, 0.0));
-        System {
-            laws,
-            unknowns,
-            matrix,
-        }
+        let matrix = Factored::new(self.finish.matrix(&laws, 0.0));
+        System { laws, matrix }
     }
 
     /// What is driven while no reaction changes.
@@ -263,18 +257,22 @@ impl<'a> Linearised<'a> {
 
     fn answer(&self, system: &System, drive: &Drive) -> Option<Point> {
         let mut at = self.held(drive);
-        let asked = system.laws.iter().flat_map(|law| {
-            let moved = local(&self.finish, law.contact, &at.reaction, &at.beyond).beyond;
-            let rows = law.asked(moved, self.friction(law.contact, drive));
-            rows.into_iter().take(law.block.len())
+        for law in &system.laws {
+            let change = law.shrinks(self.friction(law.contact, drive));
+            self.finish.add_to(&mut at, law, change);
+        }
+        let asked = laws::missing(&system.laws, |contact| {
+            local(&self.finish, contact, &at.reaction, &at.beyond)
         });
-        let rest = self.finish.along(&drive.load).into_iter().map(|e| -e);
+        let load = self.finish.along(&drive.load).into_iter();
+        let rest = load.zip(self.finish.carried(&at.reaction));
+        let rest = rest.map(|(e, carried)| -(e + carried));
         let right: Col<f64> = asked.chain(rest).collect();
         let solution = system.matrix.solve(&right);
         if !solution.iter().all(|x| x.is_finite()) {
             return None;
         }
-        self.finish.add(&mut at, &system.unknowns, &solution);
+        self.finish.add(&mut at, &system.laws, &solution);
         for law in &system.laws {
             // But for rounding.
             at.beyond[law.block.start] = 0.0;

@@ -13,6 +13,7 @@
 //! ```
 
 use nalgebra::Matrix3;
+use rayon::prelude::*;
 
 use super::Body;
 use super::condensed_cell::Condensed;
@@ -20,6 +21,9 @@ use super::dilatation::Patches;
 use super::element::Element;
 use super::foundation::{Foundation, add_foundation};
 use super::sparsity::BlockMatrix;
+
+/// Cells whose blocks are formed at a time, by all threads; one adds them up, in order.
+const RUN: usize = 2048;
 
 /// Stiffness matrix of the body without supports, in N/m: symmetric, both triangles, rows
 /// `dimension · node + axis` with ascending columns.
@@ -45,8 +49,14 @@ pub(crate) fn part_of_stiffness(body: &Body, part: usize, parts: usize) -> sprs:
     let lists = lists.chain(patches().map(|patch| patch.nodes));
     let lists = lists.chain(springs.flat_map(Foundation::joined));
     let mut matrix = BlockMatrix::new(mesh.dimension, mesh.nodes.len(), lists);
-    for cell in cells {
-        add_cell(body, cell, &mut matrix);
+    for run in cells.collect::<Vec<_>>().chunks(RUN) {
+        let formed: Vec<_> = run.par_iter().map(|&cell| blocks(body, cell)).collect();
+        for (&cell, blocks) in run.iter().zip(formed) {
+            let nodes = mesh.cell(cell).nodes;
+            for ((a, b), block) in pairs(nodes.len()).zip(&blocks) {
+                matrix.add(nodes[a], nodes[b], block);
+            }
+        }
     }
     let depth = body.model.depth();
     for patch in patches() {
@@ -66,31 +76,27 @@ pub(crate) fn part_of_stiffness(body: &Body, part: usize, parts: usize) -> sprs:
     matrix.into_rows()
 }
 
-/// Adds (B3) of one cell, with (B4) where its dilatation is the cell's mean.
-fn add_cell(body: &Body, index: usize, matrix: &mut BlockMatrix) {
-    let nodes = body.mesh.cell(index).nodes;
+/// (B3) of one cell for its pairs of nodes, with (B4) where its dilatation is the cell's mean.
+fn blocks(body: &Body, index: usize) -> Vec<Matrix3<f64>> {
+    let pairs = pairs(body.mesh.cell(index).nodes.len());
     let depth = body.model.depth();
     if let Some(condensed) = Condensed::of(body, index) {
         let (axes, stiffness) = (body.mesh.dimension, condensed.stiffness * depth);
-        for (a, row) in nodes.iter().enumerate() {
-            for (b, column) in nodes.iter().enumerate().take(a + 1) {
-                let entry = |i, j| stiffness[(axes * a + i, axes * b + j)];
-                let block = Matrix3::from_fn(|i, j| match i.max(j) < axes {
-                    true if a == b => entry(i.max(j), i.min(j)),
-                    true => entry(i, j),
-                    false => 0.0,
-                });
-                matrix.add(*row, *column, &block);
-            }
-        }
-        return;
+        let entry = |(a, b): (usize, usize), i, j| match usize::max(i, j) < axes {
+            true if a == b => stiffness[(axes * a + i.max(j), axes * b + i.min(j))],
+            true => stiffness[(axes * a + i, axes * b + j)],
+            false => 0.0,
+        };
+        let block = |pair| Matrix3::from_fn(|i, j| entry(pair, i, j));
+        return pairs.map(block).collect();
     }
     let element = Element::new(body, index);
-    for (a, row) in nodes.iter().enumerate() {
-        for (b, column) in nodes.iter().enumerate().take(a + 1) {
-            matrix.add(*row, *column, &(element.block(a, b) * depth));
-        }
-    }
+    pairs.map(|(a, b)| element.block(a, b) * depth).collect()
+}
+
+/// Each pair of nodes once.
+fn pairs(nodes: usize) -> impl Iterator<Item = (usize, usize)> {
+    (0..nodes).flat_map(|a| (0..=a).map(move |b| (a, b)))
 }
 
 #[cfg(test)]

@@ -12,6 +12,8 @@
 //! takes as many digits as the factor has, as the errors of û and G count only by what still changes. (Iterative
 //! refinement: Wilkinson, Rounding Errors in Algebraic Processes (1963), ch. 3.)
 
+use rayon::prelude::*;
+
 use super::Condensed;
 use super::condensed_body::FactoredBody;
 use super::load_case::Action;
@@ -180,11 +182,13 @@ impl FactoredBody {
 
     /// r of (C24), in newton, in the factor's order.
     fn residual(&self, action: &Action, forces: &[f64], displacement: &[f64]) -> Vec<f64> {
-        let rows = self.stiffness.outer_iterator().zip(&action.load);
+        let rows = action.load.par_iter().enumerate();
         let rest: Vec<f64> = rows
             .map(|(row, &load)| {
-                let terms = row.iter().map(|(k, entry)| (-*entry, displacement[k]));
-                deep_sum(load, terms)
+                let entries = self.stiffness.indptr().outer_inds_sz(row);
+                let columns = self.stiffness.indices()[entries.clone()].iter();
+                let terms = columns.zip(&self.stiffness.data()[entries]);
+                deep_sum(load, terms.map(|(&k, entry)| (-entry, displacement[k])))
             })
             .collect();
         let mut rest = self.in_order(rest);

@@ -19,7 +19,7 @@ const ROUNDS: usize = 8;
 const FIRST: f64 = 1e-6;
 
 /// First residual of recovered bodies beyond which single precision is not enough.
-const RESIDUAL: f64 = 1e-5;
+const RESIDUAL: f64 = 3e-5;
 
 /// Second change of the reactions over the first beyond which it is not.
 const CONTRACTION: f64 = 1e-3;

@@ -17,7 +17,7 @@
 //! The path is followed by tangents and Newton steps across them. It is left, as lost, after three thousand steps,
 //! or after the products of two numbers that a minute has time for, or when the time of the solve is over.
 
-use faer::{Col, Mat};
+use faer::Col;
 
 use crate::alternation::condition::{Factored, times};
 use crate::alternation::laws::{self, Law, Local, roots};
@@ -64,13 +64,20 @@ struct Place {
 struct Piece {
     /// The place, with contacts that are open made to carry nothing.
     at: Place,
-    /// Unknowns of contacts that are not open.
-    unknowns: Vec<usize>,
+    /// Of contacts that are not open.
+    laws: Vec<Law>,
     matrix: Factored,
     /// Minus F.
     missing: Col<f64>,
     /// ∂F/∂θ.
     rate: Col<f64>,
+}
+
+impl Piece {
+    /// Changes of reactions by unknown, of a solution.
+    fn spread<'a>(&'a self, solution: &'a Col<f64>) -> impl Iterator<Item = (usize, f64)> + 'a {
+        laws::spread(&self.laws, solution.iter().copied())
+    }
 }
 
 /// A path on its way.
@@ -187,7 +194,7 @@ impl<'a> JoinedPath<'a> {
             reaction: vec![0.0; self.roots.len()],
             part: 1.0,
         };
-        for (&unknown, rate) in piece.unknowns.iter().zip(rates.iter()) {
+        for (unknown, rate) in piece.spread(&rates) {
             along.reaction[unknown] = -rate;
         }
         let length = (norm(&along.reaction) / self.size).hypot(1.0);
@@ -209,8 +216,8 @@ impl<'a> JoinedPath<'a> {
             let [found, rates] =
                 [&piece.missing, &piece.rate].map(|right| piece.matrix.solve(right));
             let of = |column: &Col<f64>| {
-                let pairs = piece.unknowns.iter().zip(column.iter());
-                pairs.map(|(&k, s)| along.reaction[k] * s).sum::<f64>() / self.size.powi(2)
+                let changes = piece.spread(column);
+                changes.map(|(k, s)| along.reaction[k] * s).sum::<f64>() / self.size.powi(2)
             };
             let aside = self.along(&at, along) - self.along(guess, along);
             let part = -(aside + of(&found)) / (along.part - of(&rates));
@@ -218,8 +225,9 @@ impl<'a> JoinedPath<'a> {
                 return None;
             }
             at.part += part;
-            for (i, &unknown) in piece.unknowns.iter().enumerate() {
-                at.reaction[unknown] += found[i] - part * rates[i];
+            let change = &found - &rates * faer::Scale(part);
+            for (unknown, by) in piece.spread(&change) {
+                at.reaction[unknown] += by;
             }
         }
         None
@@ -234,38 +242,30 @@ impl<'a> JoinedPath<'a> {
                 local.law(contact, self.problem.block(contact))
             })
             .collect();
-        let unknowns: Vec<usize> = laws.iter().flat_map(|law| law.block.clone()).collect();
-        let mut kept = unknowns.iter().peekable();
+        let mut kept = laws.iter().flat_map(|law| law.block.clone()).peekable();
         for unknown in 0..at.reaction.len() {
-            if kept.next_if(|&&k| k == unknown).is_none() {
+            if kept.next_if_eq(&unknown).is_none() {
                 at.reaction[unknown] = 0.0;
             }
         }
+        for law in &laws {
+            let reaction = self.local(law.contact, &at, &beyond).reaction;
+            let change = law.block.clone().zip(law.short_of_bound(reaction));
+            change.for_each(|(unknown, by)| at.reaction[unknown] += by);
+        }
         let (joined, beyond) = (self.joined(&at), self.beyond(&at));
         let missing = laws::missing(&laws, |contact| self.local(contact, &at, &beyond)).collect();
-        let rate = laws::rows(&laws, |k| joined[k] - at.reaction[k], None).collect();
-        let matrix = Factored::new(self.matrix(&laws, &unknowns, at.part));
+        let rate = laws::rows(&laws, |k| joined[k] - at.reaction[k]).collect();
+        let scaled = (self.problem, &self.roots[..]);
+        let matrix = Factored::new(laws::matrix(&laws, scaled, (at.part, 1.0 - at.part), 0));
         self.products += matrix.products() + 2.0 * (self.roots.len() as f64).powi(2);
         Piece {
             at,
-            unknowns,
+            laws,
             matrix,
             missing,
             rate,
         }
-    }
-
-    /// ∂F/∂s.
-    fn matrix(&self, laws: &[Law], unknowns: &[usize], part: f64) -> Mat<f64> {
-        let mut matrix = Mat::zeros(unknowns.len(), unknowns.len());
-        for (j, &unknown) in unknowns.iter().enumerate() {
-            let moved = self.problem.compliance().col_as_slice(unknown);
-            let moved = |k: usize| part * self.roots[k] * moved[k] * self.roots[unknown];
-            let rows = laws::rows(laws, moved, Some((unknown, 1.0 - part)));
-            let entries = matrix.col_as_slice_mut(j).iter_mut().zip(rows);
-            entries.for_each(|(entry, value)| *entry = value);
-        }
-        matrix
     }
 
     /// `G s`, scaled.
@@ -340,7 +340,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use std::time::Duration;
 
-    use faer::mat;
+    use faer::{Mat, mat};
 
     use super::*;
     use crate::alternation::Settings;
