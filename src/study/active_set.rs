@@ -25,7 +25,7 @@ use faer::Mat;
 use faer::linalg::solvers::Solve;
 use faer::sparse::{SparseColMat, Triplet};
 
-use super::exact::disc;
+use super::exact::{BETWEEN, disc};
 use super::penalty::springs;
 use super::variant::Run;
 use crate::alternation::{Outcome, Settings, SweepRecord};
@@ -36,9 +36,6 @@ use crate::problem::ContactProblem;
 
 /// Larger bodies are not factorised in every step.
 const MOST: usize = 40_000;
-
-/// c‖w_T‖ in bounds at most: friction that is no bound yet then slips, friction that drives the slip sticks.
-pub(super) const BETWEEN: f64 = 1.5;
 
 /// A reaction that changes by less than this part of it is the answer of springs, which no residual tells.
 const STILL: f64 = 1e-12;

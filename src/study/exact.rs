@@ -18,6 +18,9 @@ use crate::problem::ContactProblem;
 /// Newton steps at most.
 const STEPS: usize = 20;
 
+/// c ‖slip‖ in bounds at most: friction that is no bound yet then slips, friction that drives the slip sticks.
+pub(super) const BETWEEN: f64 = 1.5;
+
 /// Solves (H1) from a reaction near its solution.
 pub(super) fn normal(problem: &ContactProblem, reaction: &mut [f64]) {
     let blocks = problem

@@ -18,9 +18,7 @@ use std::ops::Range;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use faer::{Col, Mat, Side};
 
-use super::active_set::BETWEEN;
-use super::exact::{Projected, disc, pressed};
-use super::variant::Run;
+use super::exact::{BETWEEN, Projected, disc, pressed};
 use crate::problem::ContactProblem;
 
 /// Newton steps of a half-step at most.
@@ -46,44 +44,24 @@ impl Primal {
             friction: Program::new(problem, tangents.collect())?,
         })
     }
-}
 
-impl Run<'_> {
-    /// One alternation.
-    pub(super) fn alternate(&mut self) {
-        let primal = self.primal.take().or_else(|| Primal::new(self.problem));
-        let Some(mut primal) = primal else {
-            self.given_up = true;
-            return;
-        };
-        let problem = self.problem;
+    /// One alternation from a reaction; says how many Newton steps it took, or nothing where they lead nowhere.
+    pub(super) fn alternate(
+        &mut self,
+        problem: &ContactProblem,
+        reaction: &mut [f64],
+    ) -> Option<usize> {
         let none = vec![0.0; problem.contacts()];
         let given = (problem.initial_gap(), &none[..]);
-        let normal = primal
-            .normal
-            .minimise(problem, &mut self.reaction, given, |_, point| {
-                pressed(point)
-            });
+        let pressing = |_: usize, point: [f64; 2]| pressed(point);
+        let normal = self.normal.minimise(problem, reaction, given, pressing)?;
         let normals = problem.normals().iter().zip(problem.friction());
-        let bounds: Vec<f64> = normals
-            .map(|(&n, mu)| -mu * self.reaction[n].min(0.0))
-            .collect();
+        let bounds = normals.map(|(&n, mu)| -mu * reaction[n].min(0.0));
+        let bounds: Vec<f64> = bounds.collect();
         let given = (&none[..], &bounds[..]);
-        let friction =
-            primal
-                .friction
-                .minimise(problem, &mut self.reaction, given, |contact, point| {
-                    disc(point, bounds[contact])
-                });
-        self.primal = Some(primal);
-        match (normal, friction) {
-            (Some(normal), Some(friction)) => {
-                self.record.newton_steps = normal + friction;
-                self.work.newton_steps += normal + friction;
-            }
-            _ => self.given_up = true,
-        }
-        self.measure();
+        let rubbing = |contact: usize, point: [f64; 2]| disc(point, bounds[contact]);
+        let friction = self.friction.minimise(problem, reaction, given, rubbing)?;
+        Some(normal + friction)
     }
 }
 

@@ -290,6 +290,19 @@ impl<'a> Run<'a> {
         }
     }
 
+    fn alternate(&mut self) {
+        let primal = self.primal.take().or_else(|| Primal::new(self.problem));
+        let steps = primal.and_then(|mut primal| {
+            let steps = primal.alternate(self.problem, &mut self.reaction);
+            self.primal = Some(primal);
+            steps
+        });
+        self.given_up = steps.is_none();
+        self.record.newton_steps = steps.unwrap_or(0);
+        self.work.newton_steps += steps.unwrap_or(0);
+        self.measure();
+    }
+
     fn full_cone(&mut self) {
         let none = Mat::zeros(self.problem.unknowns(), 0);
         let tolerance = FULL_TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
