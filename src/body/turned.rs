@@ -93,15 +93,8 @@ fn backwards(nodes: &[usize], corners: usize) -> Vec<usize> {
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::body::tests::samples::PLANE;
     use crate::body::{CellKind, rectangle};
-
-    const PLANE: [CellKind; 5] = [
-        CellKind::Tri3,
-        CellKind::Quad4,
-        CellKind::Tri6,
-        CellKind::Quad8,
-        CellKind::Quad9,
-    ];
 
     /// The mesh with every cell from `from` on the other way round.
     fn mirrored(mesh: &Mesh, from: usize) -> Mesh {

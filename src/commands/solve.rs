@@ -80,8 +80,9 @@ pub(crate) struct Solve {
     /// Estimate the error of the stress, which takes one more pass over all cells.
     #[arg(long)]
     quality: bool,
-    /// Bound the error of the stress of plane and axisymmetric bodies, by a stress that is in equilibrium at every
-    /// point, which takes a small problem for each cell.
+    /// Bound the error of the stress of plane and axisymmetric bodies under the contact tractions that are found, by a
+    /// stress that is in equilibrium with them at every point, which takes a small problem for each cell. What finer meshes
+    /// change in the tractions themselves, and in where contact begins and ends, is not in it.
     #[arg(long)]
     bound: bool,
     /// Print the whole report on standard output, in JSON, and no summary.

@@ -17,6 +17,10 @@ impl Solution {
     /// A bound of the same error (B18), of bodies under the tractions on their contact that this state has
     /// there; plane and axisymmetric bodies with straight cells.
     ///
+    /// What finer meshes change in those tractions, and in where contact begins and ends, is not in it. With friction no such
+    /// bound is known to us: the solution minimises no energy. Without it the complementary energy of an admissible
+    /// stress would do, once the displacement is admissible as well, which contacts in the mean are not between curved sides.
+    ///
     /// ```
     /// use dpana::{Scene, solve};
     ///

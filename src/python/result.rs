@@ -207,6 +207,13 @@ impl Solved {
         py.detach(|| self.solution.stress_error_estimate())
     }
 
+    /// The same error at most, of bodies under the contact tractions of this state: where contact begins and ends is not in
+    /// it. Plane and axisymmetric bodies of straight cells; an Error says what it does not know.
+    fn stress_error_bound(&self, py: Python<'_>) -> PyResult<f64> {
+        py.detach(|| self.solution.stress_error_bound())
+            .map_err(refused)
+    }
+
     /// Solves again from other starts and looks for jumps on the way here; None without a certificate.
     #[pyo3(signature = (starts=4))]
     fn trust<'py>(&self, py: Python<'py>, starts: usize) -> PyResult<Option<Bound<'py, PyAny>>> {

@@ -6,7 +6,8 @@
 //! ```
 //!
 //! The grid convergence index of Roache, J. Fluids Eng. 116 (1994) 405–413, around the extrapolated value. The
-//! rate counts as 2 at most: one that is better may be luck. Where totals do not approach each
+//! rate counts as 2 at most, and one that is better by more than rates may differ is none until it is seen twice: the last change may
+//! be small by luck, where what a total depends on falls into cells in another way on every mesh. Where totals do not approach each
 //! other with a rate between a half and eight there is no extrapolation, and the last one is wrong by three times the
 //! change to it, at least.
 
@@ -128,16 +129,17 @@ fn judge(steps: &[(f64, f64)]) -> Option<(f64, f64, Option<f64>, f64)> {
     if largest <= ROUNDED * value.abs() {
         return Some((value, SAFETY.1 * largest, None, SAFETY.1));
     }
-    let Some(rate) = observed([*first, *middle, *last]) else {
-        let change = changes[1].abs().max(0.5 * changes[0].abs());
-        return Some((value, SAFETY.1 * change, None, SAFETY.1));
-    };
     let before = match steps {
         [.., before, _, _, _] => observed([*before, *first, *middle]),
         _ => None,
     };
-    let agrees = before.is_some_and(|before| (before - rate).abs() <= AGREE * rate);
-    let safety = if agrees { SAFETY.0 } else { SAFETY.1 };
+    let agrees = |rate: f64| before.is_some_and(|before| (before - rate).abs() <= AGREE * rate);
+    let believed = |rate: &f64| agrees(*rate) || *rate <= (1.0 + AGREE) * MOST;
+    let Some(rate) = observed([*first, *middle, *last]).filter(believed) else {
+        let change = changes[1].abs().max(0.5 * changes[0].abs());
+        return Some((value, SAFETY.1 * change, None, SAFETY.1));
+    };
+    let safety = if agrees(rate) { SAFETY.0 } else { SAFETY.1 };
     let finer = (middle.0 / last.0).powf(rate.min(MOST));
     let left = changes[1] / (finer - 1.0);
     Some((value + left, safety * left.abs(), Some(rate), safety))
@@ -197,6 +199,20 @@ mod tests {
         let found = family(&[1.0, 1.2, 1.1], &[2, 4, 8]);
         assert_eq!((found.rate, found.value), (None, 1.1));
         assert!((found.error - 0.3).abs() < 1e-15);
+        // Twenty times less than before by luck, and the fourth says so.
+        let lucky = family(&[1.0, 1.2, 1.21], &[2, 4, 8]);
+        assert_eq!((lucky.rate, lucky.value), (None, 1.21));
+        assert!((lucky.error - 0.3).abs() < 1e-15);
+        let twice = family(
+            &[
+                1.0 - 0.2 / 0.95,
+                1.0,
+                1.0 + 0.2 / 20.0,
+                1.0 + 0.2 / 20.0 * 1.05,
+            ],
+            &[2, 4, 8, 16],
+        );
+        assert!(twice.rate.is_some_and(|rate| rate > 4.0) && twice.safety == 1.25);
         let still = family(&[2.0; 3], &[2, 4, 8]);
         assert!(still.reached && still.error == 0.0 && still.rate.is_none());
         assert!(!family(&[2.0; 2], &[2, 4]).reached);

@@ -26,7 +26,7 @@ const MARGIN: f64 = 24.0;
 const TITLE: f64 = 30.0;
 const LEGEND: f64 = 40.0;
 
-/// Largest displacement and highest pressure as drawn, of the diagonal of all bodies.
+/// Largest displacement and pressure as drawn, of the diagonal of all bodies.
 const ENLARGED: f64 = 1.0 / 12.0;
 const PEAK: f64 = 1.0 / 6.0;
 
@@ -64,7 +64,13 @@ impl Picture<'_> {
         self.check()?;
         let (extent, factor) = self.enlargement();
         let positions = self.deformed(factor);
-        let peak = self.report.totals.peak_pressure;
+        // What is glued may be pulled harder than anything is pressed.
+        let pressures = self
+            .report
+            .contacts
+            .iter()
+            .filter_map(|contact| contact.pressure);
+        let peak = pressures.fold(0.0, |most: f64, pressure| most.max(pressure.abs()));
         let height = |pressure: f64| match peak > 0.0 {
             true => PEAK * extent * pressure / peak,
             false => 0.0,
@@ -73,7 +79,8 @@ impl Picture<'_> {
         let ends = marks.iter().map(|mark| mark.tip);
         let words = self.report.title.chars().count();
         let view = View::around(positions.iter().flatten().copied().chain(ends), words);
-        let mut svg = view.open(&self.report.title);
+        let title = escaped(&self.report.title);
+        let mut svg = view.open(&title);
         for (obstacle, motion) in self.obstacles {
             let moved = view.moved(motion, factor);
             let _ = writeln!(svg, "<g{moved}>");
@@ -85,6 +92,11 @@ impl Picture<'_> {
         }
         self.draw_pressure(&mut svg, &view, &marks);
         self.draw_legend(&mut svg, &view, factor);
+        let _ = writeln!(
+            svg,
+            "<rect width=\"100%\" height=\"{TITLE}\" fill=\"#fff\"/>\n<text x=\"{MARGIN}\" y=\"22\" \
+             font-size=\"16\" font-weight=\"bold\">{title}</text>"
+        );
         Ok(svg + "</svg>\n")
     }
 
@@ -265,7 +277,7 @@ impl View {
             bounds,
             scale,
             size: [
-                drawn[0].max(640.0).max(2.0 * MARGIN + 8.6 * title as f64),
+                drawn[0].max(640.0).max(2.0 * MARGIN + 10.2 * title as f64),
                 drawn[1] + TITLE + LEGEND,
             ],
         }
@@ -303,12 +315,10 @@ impl View {
 
     fn open(&self, title: &str) -> String {
         let [width, height] = self.size;
-        let title = escaped(title);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.0} {height:.0}\" \
              role=\"img\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#222\">\n\
-             <title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n\
-             <text x=\"{MARGIN}\" y=\"22\" font-size=\"16\" font-weight=\"bold\">{title}</text>\n"
+             <title>{title}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n"
         )
     }
 }

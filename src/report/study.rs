@@ -99,6 +99,10 @@ pub enum Part {
     Meshes,
     /// All loops on one mesh, tolerance by tolerance.
     Loops,
+    /// Rivals on that mesh, tolerance by tolerance.
+    Rivals,
+    /// Penalties on that mesh, spring by spring.
+    Penalties,
     /// All loops on that mesh, friction by friction.
     Friction,
 }
@@ -117,6 +121,10 @@ pub struct StudiedRun {
     pub friction: Option<f64>,
     /// Natural-map residual at which it may stop.
     pub tolerance: f64,
+    /// Springs over the contacts' own stiffness 1/G_kk; `null` where they follow the tolerance, or are none.
+    pub parameter: Option<f64>,
+    /// It factorises whole bodies in every step: its seconds are all there are, while those of others follow a condensation.
+    pub whole: bool,
     /// How it ended.
     pub status: ReportedStatus,
     /// The judge's natural-map residual.
@@ -125,6 +133,9 @@ pub struct StudiedRun {
     pub energy_gap: f64,
     /// `‖t − t*‖_G / ‖t*‖_G` to the solution of the same problem.
     pub distance: f64,
+    /// How far the resultant of friction is off that solution's, relative to it; not a number without friction, and
+    /// mesh by mesh.
+    pub friction_error: f64,
     /// Contacts.
     pub contacts: usize,
     /// Sweeps; 0 for Gauss–Seidel.
@@ -135,7 +146,7 @@ pub struct StudiedRun {
     pub newton_steps: usize,
     /// Interior-point iterations.
     pub cone_iterations: usize,
-    /// Wall time of the loop on the condensed problem, in second; the median where it is short.
+    /// Wall time of the loop on the condensed problem, or on whole bodies, in second; the median where it is short.
     pub seconds: f64,
     /// Seconds since the start and natural-map residual, where the judge was asked.
     pub course: Vec<[f64; 2]>,
@@ -153,6 +164,9 @@ pub struct Exponent {
     /// Meshes that the fit looked at.
     pub meshes: usize,
 }
+
+/// Errors of the friction force that penalties are asked for.
+const WITHIN: [f64; 3] = [1e-2, 1e-3, 1e-4];
 
 /// Shorter stages, in second, say more of the clock than of the stage.
 const MEASURABLE: f64 = 1e-4;
@@ -236,18 +250,58 @@ impl Study {
                     number(run.friction.unwrap_or(f64::NAN)),
                 ),
                 ("tolerance".to_owned(), number(run.tolerance)),
+                (
+                    "parameter".to_owned(),
+                    number(run.parameter.unwrap_or(f64::NAN)),
+                ),
                 ("status".to_owned(), Cell::Word(run.status.word().into())),
                 ("natural_map".to_owned(), number(run.natural_map)),
                 ("energy_gap".to_owned(), number(run.energy_gap)),
                 ("distance".to_owned(), number(run.distance)),
+                ("friction_error".to_owned(), number(run.friction_error)),
                 ("sweeps".to_owned(), count(run.sweeps)),
                 ("passes".to_owned(), count(run.passes)),
                 ("newton_steps".to_owned(), count(run.newton_steps)),
                 ("cone_iterations".to_owned(), count(run.cone_iterations)),
                 ("seconds".to_owned(), number(run.seconds)),
+                ("whole_seconds".to_owned(), number(self.whole_seconds(run))),
             ]);
         }
         table
+    }
+
+    /// Wall time from the assembled stiffness on, in second: of a loop on the condensed problem with the ordering, factorisation
+    /// and condensation of its mesh.
+    #[must_use]
+    pub fn whole_seconds(&self, run: &StudiedRun) -> f64 {
+        let spent = self.meshes[run.mesh].seconds;
+        match run.whole {
+            true => run.seconds,
+            false => run.seconds + spent.ordering + spent.factorisation + spent.condensation,
+        }
+    }
+
+    /// Per error of the friction force: the softest springs from which on a penalty on whole bodies and one on the condensed
+    /// problem are within it.
+    pub(super) fn penalties(&self) -> Vec<(f64, [Option<&StudiedRun>; 2])> {
+        let found = |name: &str, within: f64| {
+            let tried: Vec<_> = self
+                .of_part(Part::Penalties)
+                .filter(|run| run.name == name)
+                .collect();
+            let enough = tried.iter().rev();
+            enough
+                .take_while(|run| run.friction_error <= within)
+                .last()
+                .copied()
+        };
+        let tried = self.of_part(Part::Penalties).next().is_some();
+        let levels = WITHIN.iter().filter(|_| tried);
+        let row = |&within: &f64| {
+            let names = ["penalty, whole bodies", "penalty"];
+            (within, names.map(|name| found(name, within)))
+        };
+        levels.map(row).collect()
     }
 }
 
@@ -258,6 +312,8 @@ impl Part {
         match self {
             Self::Meshes => "meshes",
             Self::Loops => "loops",
+            Self::Rivals => "rivals",
+            Self::Penalties => "penalties",
             Self::Friction => "friction",
         }
     }

@@ -14,6 +14,7 @@ impl Study {
             ("mesh_error", self.mesh_error()),
             ("time_unknowns", self.time_unknowns()),
             ("time_contacts", self.time_contacts()),
+            ("rivals", self.rivals()),
             ("time_error", self.time_error()),
             ("residual_time", self.residual_time()),
             ("sweeps_friction", self.sweeps_friction()),
@@ -129,6 +130,34 @@ impl Study {
             up: decades("seconds on the condensed problem"),
             curves,
             open: "given up",
+        }
+    }
+
+    fn rivals(&self) -> Figure {
+        let ours = ["default", "plain sweeps", "NSGS"];
+        let runs = || {
+            let shown = |run: &&StudiedRun| match run.part {
+                Part::Loops => ours.contains(&run.name),
+                part => part == Part::Rivals,
+            };
+            self.runs.iter().filter(shown)
+        };
+        let curve = |name: &'static str| Curve {
+            name: name.to_owned(),
+            points: runs()
+                .filter(|run| run.name == name)
+                .map(|run| Point {
+                    at: [self.whole_seconds(run), run.distance.max(EXACT)],
+                    open: run.status != ReportedStatus::Certified,
+                })
+                .collect(),
+        };
+        Figure {
+            title: format!("What a digit costs, rivals and ours{}", self.contacts()),
+            across: decades("seconds from the assembled stiffness on"),
+            up: decades("‖t − t*‖ / ‖t*‖, energy norm"),
+            curves: Self::loops(runs()).into_iter().map(curve).collect(),
+            open: "not certified",
         }
     }
 

@@ -47,6 +47,7 @@ impl Study {
         }
         self.mesh_rows(&mut page);
         self.run_rows(&mut page);
+        self.penalty_rows(&mut page);
         needs(&mut page);
         page + "</body>\n</html>\n"
     }
@@ -105,6 +106,39 @@ impl Study {
             (mesh.status != ReportedStatus::Certified, row)
         });
         table(page, "The default loop, mesh by mesh", &heads, rows);
+    }
+
+    fn penalty_rows(&self, page: &mut String) {
+        let heads = [
+            "friction force within",
+            "springs over the contacts' stiffness",
+            "steps, whole bodies",
+            "seconds",
+            "springs, condensed",
+            "seconds with the condensation",
+        ];
+        let rows: Vec<_> = self
+            .penalties()
+            .into_iter()
+            .map(|(within, found)| {
+                let mut row = vec![format!("{} %", 100.0 * within)];
+                for (at, run) in found.into_iter().enumerate() {
+                    let of = |words: &dyn Fn(&StudiedRun) -> String| {
+                        run.map_or_else(|| "–".to_owned(), words)
+                    };
+                    row.push(of(&|run| run.parameter.map_or_else(String::new, size)));
+                    if at == 0 {
+                        row.push(of(&|run| run.newton_steps.to_string()));
+                    }
+                    row.push(of(&|run| seconds(self.whole_seconds(run))));
+                }
+                (found_none(&row), row)
+            })
+            .collect();
+        if !rows.is_empty() {
+            let title = "What a penalty takes";
+            table(page, title, &heads.map(str::to_owned), rows.into_iter());
+        }
     }
 
     fn run_rows(&self, page: &mut String) {
@@ -191,6 +225,7 @@ impl Study {
             ));
         }
         said.extend(self.duels());
+        said.extend(self.prices());
         for name in Self::loops(self.runs.iter()) {
             for status in [
                 ReportedStatus::NotConverged,
@@ -212,6 +247,33 @@ impl Study {
             }
         }
         said
+    }
+
+    /// What a penalty costs, error by error, beside the default.
+    fn prices(&self) -> Vec<String> {
+        let defaults = self
+            .of_part(Part::Loops)
+            .filter(|run| run.name == "default");
+        let ours = defaults.last().map(|run| self.whole_seconds(run));
+        let priced = self.penalties().into_iter().map(|(within, [whole, condensed])| {
+            let price = |run: Option<&StudiedRun>, how: &str| match run {
+                None => format!("none of them {how}"),
+                Some(run) => format!(
+                    "springs of {} times the contacts' stiffness, {} and {} s {how}",
+                    run.parameter.map_or_else(String::new, size),
+                    counted(run.newton_steps, "step"),
+                    seconds(self.whole_seconds(run)),
+                ),
+            };
+            format!(
+                "A penalty has {} % of the friction force with {}, and with {}; the default has all its digits in {} s.",
+                100.0 * within,
+                price(whole, "on whole bodies"),
+                price(condensed, "on the condensed problem"),
+                ours.map_or_else(|| "–".to_owned(), seconds),
+            )
+        });
+        priced.collect()
     }
 
     /// The default against Gauss–Seidel, tolerance by tolerance.
@@ -256,7 +318,7 @@ impl Study {
 }
 
 /// What each kind of loop asks of its user, and what it costs where bodies are not condensed.
-const NEEDS: [[&str; 3]; 6] = [
+const NEEDS: [[&str; 3]; 8] = [
     [
         "default, sweeps, full cone",
         "nothing",
@@ -281,6 +343,16 @@ const NEEDS: [[&str; 3]; 6] = [
         "Newton from rest",
         "a start that is near enough; load steps where it is not",
         "a factorisation of the bodies in every Newton step",
+    ],
+    [
+        "active set, whole bodies",
+        "the same; and a solver of unsymmetric systems",
+        "that is what it is: a factorisation in every step",
+    ],
+    [
+        "primal alternation",
+        "friction that is low enough, as the plain sweeps",
+        "a factorisation per active set of a half-step",
     ],
     [
         "NSGS",
@@ -313,6 +385,10 @@ fn caption(figure: &str) -> &'static str {
         "time_contacts" => {
             "The default loop and projected block Gauss–Seidel (NSGS) on the same condensed \
              problems; the condensation counts on neither side."
+        }
+        "rivals" => {
+            "Every point is a tolerance; springs of a penalty are as stiff as its inverse root. Loops on the condensed problem \
+             stand with the ordering, factorisation and condensation that come before; those of whole bodies factorise in every step."
         }
         "time_error" => {
             "Every point is a tolerance. t* is the solution of the same condensed problem, so that \
@@ -350,6 +426,10 @@ pub(super) fn table(
         let _ = writeln!(page, "<tr{class}>{}</tr>", cells("td", &row));
     }
     *page += "</table></div>\n";
+}
+
+fn found_none(row: &[String]) -> bool {
+    row.iter().any(|cell| cell == "–")
 }
 
 fn words(status: ReportedStatus) -> &'static str {

@@ -1,12 +1,12 @@
 //! Half-steps to the last digit, for study: Newton on the natural map of one half-step alone.
 //!
 //! ```text
-//! (S5)  s = P(s − ρ u),   u = û + G t − (g₀, 0),      s: t_N or t_T, the other held
+//! (M5)  s = P(s − ρ u),   u = û + G t − (g₀, 0),      s: t_N or t_T, the other held
 //!       P: projection on s ≤ 0 in (H1), on the disc of radius −μ t_N in (H2)
 //! ```
 //!
 //! An interior-point method leaves the natural map at about the root of its tolerance. From there
-//! (S5) takes a few steps; they are kept as long as its residual falls.
+//! (M5) takes a few steps; they are kept as long as its residual falls.
 
 use std::ops::Range;
 
@@ -18,6 +18,9 @@ use crate::problem::ContactProblem;
 /// Newton steps at most.
 const STEPS: usize = 20;
 
+/// c ‖slip‖ in bounds at most: friction that is no bound yet then slips, friction that drives the slip sticks.
+pub(super) const BETWEEN: f64 = 1.5;
+
 /// Solves (H1) from a reaction near its solution.
 pub(super) fn normal(problem: &ContactProblem, reaction: &mut [f64]) {
     let blocks = problem
@@ -25,13 +28,7 @@ pub(super) fn normal(problem: &ContactProblem, reaction: &mut [f64]) {
         .windows(2)
         .map(|ends| ends[0]..ends[0] + 1);
     let blocks: Vec<Range<usize>> = blocks.collect();
-    newton(problem, reaction, &blocks, |_, point| {
-        if point[0] < 0.0 {
-            (point, [[1.0, 0.0], [0.0, 0.0]])
-        } else {
-            ([0.0; 2], [[0.0; 2]; 2])
-        }
-    });
+    newton(problem, reaction, &blocks, |_, point| pressed(point));
 }
 
 /// Solves (H2) from a reaction near its solution.
@@ -44,27 +41,44 @@ pub(super) fn friction(problem: &ContactProblem, reaction: &mut [f64]) {
     let normals = problem.offsets().iter().zip(problem.friction());
     let bounds: Vec<f64> = normals.map(|(&n, mu)| -mu * reaction[n].min(0.0)).collect();
     newton(problem, reaction, &blocks, |contact, point| {
-        let (size, bound) = (point[0].hypot(point[1]), bounds[contact]);
-        if size <= bound {
-            return (point, [[1.0, 0.0], [0.0, 1.0]]);
-        }
-        let direction = point.map(|p| p / size);
-        let across = |i: usize, j: usize| {
-            let unit = if i == j { 1.0 } else { 0.0 };
-            bound / size * (unit - direction[i] * direction[j])
-        };
-        let slope = [[across(0, 0), across(0, 1)], [across(1, 0), across(1, 1)]];
-        (direction.map(|d| bound * d), slope)
+        disc(point, bounds[contact])
     });
 }
 
-/// Newton on (S5) for the unknowns of the blocks; `project` gives P and its slope at a point, in a
+/// The nearest point of a plane and its slope, in the first axes of a contact's normal or tangents.
+pub(super) type Projected = ([f64; 2], [[f64; 2]; 2]);
+
+/// P on `s ≤ 0`.
+pub(super) fn pressed(point: [f64; 2]) -> Projected {
+    if point[0] < 0.0 {
+        (point, [[1.0, 0.0], [0.0, 0.0]])
+    } else {
+        ([0.0; 2], [[0.0; 2]; 2])
+    }
+}
+
+/// P on a disc.
+pub(super) fn disc(point: [f64; 2], bound: f64) -> Projected {
+    let size = point[0].hypot(point[1]);
+    if size <= bound {
+        return (point, [[1.0, 0.0], [0.0, 1.0]]);
+    }
+    let direction = point.map(|p| p / size);
+    let across = |i: usize, j: usize| {
+        let unit = if i == j { 1.0 } else { 0.0 };
+        bound / size * (unit - direction[i] * direction[j])
+    };
+    let slope = [[across(0, 0), across(0, 1)], [across(1, 0), across(1, 1)]];
+    (direction.map(|d| bound * d), slope)
+}
+
+/// Newton on (M5) for the unknowns of the blocks; `project` gives P and its slope at a point, in a
 /// plane of which a block of one unknown uses the first axis.
 fn newton(
     problem: &ContactProblem,
     reaction: &mut [f64],
     blocks: &[Range<usize>],
-    project: impl Fn(usize, [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]),
+    project: impl Fn(usize, [f64; 2]) -> Projected,
 ) {
     let mut trial = reaction.to_vec();
     let mut least = f64::INFINITY;
@@ -95,7 +109,7 @@ impl System {
         problem: &ContactProblem,
         reaction: &[f64],
         blocks: &[Range<usize>],
-        project: impl Fn(usize, [f64; 2]) -> ([f64; 2], [[f64; 2]; 2]),
+        project: impl Fn(usize, [f64; 2]) -> Projected,
     ) -> Self {
         let g = problem.compliance();
         let mut displacement = problem.displacement(reaction);

@@ -1,7 +1,7 @@
 //! One scene, two operators: where half-spaces in place of the bodies are good enough.
 //!
 //! ```text
-//! (S8)  u = G t + R α,   Rᵀ (t − t_scene) = 0      G: half-spaces of the bodies' materials; R: rigid motions
+//! (M8)  u = G t + R α,   Rᵀ (t − t_scene) = 0      G: half-spaces of the bodies' materials; R: rigid motions
 //! ```
 //!
 //! The same contacts with the same gaps and laws carry the same resultants: what differs is what the
@@ -80,7 +80,7 @@ impl HalfSpaceFit {
     }
 }
 
-/// Solves a scene, and its contacts again on half-spaces under the same resultants (S8).
+/// Solves a scene, and its contacts again on half-spaces under the same resultants (M8).
 ///
 /// # Errors
 ///
@@ -200,7 +200,7 @@ impl<'a> Halves<'a> {
         problem.float(Floating::new(modes, load)?)
     }
 
-    /// G (S8) over the unknowns of the blocks, in m/N.
+    /// G (M8) over the unknowns of the blocks, in m/N.
     fn compliance(&self, blocks: &[Range<usize>]) -> Mat<f64> {
         let unknowns = blocks.last().map_or(0, |last| last.end);
         let mut compliance = Mat::zeros(unknowns, unknowns);

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::plan::Plan;
 use super::tensor_grid::TensorGrid;
+use crate::condensation::Condensed;
 use crate::error::Error;
 use crate::pipeline::{Solution, solve};
 use crate::problem::ContactProblem;
@@ -16,6 +17,14 @@ pub(super) const SHORT: f64 = 0.25;
 /// A grid and the displacement of its nodes.
 type Field = (TensorGrid, Vec<f64>);
 
+/// The mesh on which loops are compared.
+pub(super) struct Chosen {
+    pub(super) mesh: usize,
+    pub(super) condensed: Condensed,
+    /// Axes of its bodies.
+    pub(super) axes: usize,
+}
+
 /// The meshes so far.
 #[derive(Default)]
 pub(super) struct Ladder {
@@ -23,7 +32,7 @@ pub(super) struct Ladder {
     /// The fields of every body, per mesh; none where the mesh is no grid.
     fields: Vec<Vec<Option<Field>>>,
     finest: Option<Solution>,
-    chosen: Option<(usize, ContactProblem)>,
+    chosen: Option<Chosen>,
 }
 
 impl Ladder {
@@ -68,16 +77,21 @@ impl Ladder {
         let solved = solution.bodies().iter().zip(solution.displacements());
         let fields = solved.map(|(body, u)| Some((TensorGrid::of(&body.mesh)?, u.clone())));
         self.fields.push(fields.collect());
-        let problem = solution.precise()?.problem().clone();
+        let condensed = solution.precise()?;
+        let problem = condensed.problem().clone();
         if problem.unknowns() <= plan.loop_unknowns || self.chosen.is_none() {
-            self.chosen = Some((self.meshes.len() - 1, problem.clone()));
+            self.chosen = Some(Chosen {
+                mesh: self.meshes.len() - 1,
+                condensed: condensed.clone(),
+                axes: solution.bodies()[0].mesh.dimension,
+            });
         }
         self.finest = Some(solution);
         Ok(problem)
     }
 
-    /// The meshes with their errors (S1), and the one on which loops are compared.
-    pub(super) fn finish(mut self) -> (Vec<StudiedMesh>, Option<(usize, ContactProblem)>) {
+    /// The meshes with their errors (M1), and the one on which loops are compared.
+    pub(super) fn finish(mut self) -> (Vec<StudiedMesh>, Option<Chosen>) {
         if let Some(finest) = &self.finest {
             let count = self.meshes.len() - 1;
             for (mesh, fields) in self.meshes.iter_mut().zip(&self.fields).take(count) {

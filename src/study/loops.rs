@@ -3,7 +3,8 @@
 use std::rc::Rc;
 use std::time::Instant;
 
-use super::ladder::SHORT;
+use super::active_set::WholeBodies;
+use super::ladder::{Chosen, SHORT};
 use super::plan::Plan;
 use super::{Mixing, Sweeps, Variant};
 use crate::alternation::{self, Outcome, Settings};
@@ -12,30 +13,59 @@ use crate::problem::ContactProblem;
 use crate::report::{Part, StudiedRun};
 
 /// Loops by name: the default first, the baseline last.
-const LOOPS: [(&str, Option<Variant>); 9] = [
-    ("default", None),
-    ("plain sweeps", Some(Variant::PLAIN)),
+const LOOPS: [(&str, Way); 9] = [
+    ("default", Way::Default),
+    ("plain sweeps", Way::Loop(Variant::PLAIN)),
     ("plain, inexact", sweeps(Mixing::None, false, false)),
     ("relaxed by 1/2", sweeps(Mixing::Relaxed(0.5), true, false)),
     ("Anderson", sweeps(Mixing::Anderson, true, false)),
     ("Anderson, inexact", sweeps(Mixing::Anderson, false, false)),
     ("plain, inexact, finish", sweeps(Mixing::None, false, true)),
-    ("full-cone fixed point", Some(Variant::FullCone)),
-    ("NSGS", Some(Variant::Nsgs)),
+    ("full-cone fixed point", Way::Loop(Variant::FullCone)),
+    ("NSGS", Way::Loop(Variant::Nsgs)),
 ];
 
 /// Rivals, to every tolerance of the scene's friction; none of them needs nothing from the user.
-const RIVALS: [(&str, Option<Variant>); 3] = [
-    ("penalty", Some(Variant::Penalty(1.0))),
-    ("augmented Lagrangian", Some(Variant::Augmented(AUGMENTED))),
-    ("Newton from rest", Some(Variant::Newton)),
+const RIVALS: [(&str, Way); 6] = [
+    ("primal alternation", Way::Loop(Variant::Panagiotopoulos)),
+    (
+        "augmented Lagrangian",
+        Way::Loop(Variant::Augmented(AUGMENTED)),
+    ),
+    ("Newton from rest", Way::Loop(Variant::Newton)),
+    PENALTIES[0],
+    PENALTIES[1],
+    ("active set, whole bodies", Way::ActiveSet),
 ];
+
+/// On the condensed problem, and as finite-element codes do it.
+const PENALTIES: [(&str, Way); 2] = [
+    ("penalty", Way::Loop(Variant::Penalty(1.0))),
+    ("penalty, whole bodies", Way::WholePenalty),
+];
+
+/// Who solves.
+#[derive(Clone, Copy, PartialEq)]
+enum Way {
+    Default,
+    /// On the condensed problem.
+    Loop(Variant),
+    /// Whole bodies (M9).
+    ActiveSet,
+    WholePenalty,
+}
+
+impl Way {
+    fn is_whole(self) -> bool {
+        matches!(self, Self::ActiveSet | Self::WholePenalty)
+    }
+}
 
 /// Springs of the augmented Lagrangian over the contacts' own stiffness.
 const AUGMENTED: f64 = 10.0;
 
-const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Option<Variant> {
-    Some(Variant::Sweeps(Sweeps {
+const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Way {
+    Way::Loop(Variant::Sweeps(Sweeps {
         mixing,
         exact,
         finish,
@@ -44,6 +74,9 @@ const fn sweeps(mixing: Mixing, exact: bool, finish: bool) -> Option<Variant> {
 
 /// Multiplications that the passes of one Gauss–Seidel solve may take: about ten seconds.
 const MOST_WORK: f64 = 1e10;
+
+/// Steps of whole bodies after which they give up.
+const MOST_STEPS: usize = 40;
 
 /// The solution that loops are held against is computed to this part of the tightest tolerance.
 const CLOSER: f64 = 1e-2;
@@ -54,6 +87,10 @@ struct Reference {
     /// Coefficient for all contacts; none where they keep the scene's.
     friction: Option<f64>,
     reaction: Vec<f64>,
+    /// Directions of each contact's unknowns; none where nobody asks for resultants.
+    frames: Vec<[[f64; 3]; 3]>,
+    /// Of (M9); none where the bodies are too large for it.
+    whole: Option<WholeBodies>,
 }
 
 /// One loop on one problem to one tolerance.
@@ -63,9 +100,10 @@ pub(super) struct LoopRun<'a> {
     mesh: usize,
     reference: Rc<Reference>,
     name: &'static str,
-    /// None is the default loop.
-    variant: Option<Variant>,
+    way: Way,
     tolerance: f64,
+    /// Springs over the contacts' own stiffness, where they do not follow the tolerance.
+    parameter: Option<f64>,
 }
 
 /// The default and the baseline, to the loosest and the tightest tolerance.
@@ -83,19 +121,27 @@ pub(super) fn of_mesh<'a>(
     Ok(runs.into_iter().flatten().collect())
 }
 
-/// Every loop to every tolerance, then every loop with every coefficient of friction to the
-/// tightest.
-pub(super) fn all<'a>(
-    mesh: usize,
-    problem: &ContactProblem,
-    plan: &'a Plan,
-) -> Result<Vec<LoopRun<'a>>, Error> {
+/// Every loop and rival to every tolerance, penalties of every size, then every loop with every coefficient of friction
+/// to the tightest tolerance.
+pub(super) fn all<'a>(chosen: &Chosen, plan: &'a Plan) -> Result<Vec<LoopRun<'a>>, Error> {
+    let (mesh, problem) = (chosen.mesh, chosen.condensed.problem());
     let set = |part| Set { part, mesh, plan };
-    let reference = Reference::new(problem.clone(), None, plan)?.into();
+    let mut reference = Reference::new(problem.clone(), None, plan)?;
+    let nodes = chosen.condensed.surface().nodes.iter();
+    reference.frames = nodes.map(|node| node.frame).collect();
+    reference.whole = WholeBodies::new(&chosen.condensed, chosen.axes);
+    let reference = reference.into();
     let mut runs = Vec::new();
     for &tolerance in &plan.tolerances {
         runs.extend(set(Part::Loops).runs(&LOOPS, &reference, tolerance));
-        runs.extend(set(Part::Loops).runs(&RIVALS, &reference, tolerance));
+        runs.extend(set(Part::Rivals).runs(&RIVALS, &reference, tolerance));
+    }
+    for &parameter in &plan.penalties {
+        let tried = set(Part::Penalties).runs(&PENALTIES, &reference, tolerances(plan).1);
+        runs.extend(tried.into_iter().map(|run| LoopRun {
+            parameter: Some(parameter),
+            ..run
+        }));
     }
     let has_tangents = problem.unknowns() > problem.contacts();
     for &friction in plan.friction.iter().filter(|_| has_tangents) {
@@ -119,21 +165,25 @@ impl<'a> Set<'a> {
     /// The loops on one problem; those for study do not know bodies that float.
     fn runs(
         &self,
-        loops: &[(&'static str, Option<Variant>)],
+        loops: &[(&'static str, Way)],
         reference: &Rc<Reference>,
         tolerance: f64,
     ) -> Vec<LoopRun<'a>> {
         let floats = reference.problem.floating().is_some();
-        let known = |variant| !floats || Option::is_none(&variant);
-        let loops = loops.iter().filter(|(_, variant)| known(*variant));
-        let run = |&(name, variant): &(&'static str, Option<Variant>)| LoopRun {
+        let known = |way: Way| match way.is_whole() {
+            true => reference.whole.is_some(),
+            false => !floats || way == Way::Default,
+        };
+        let loops = loops.iter().filter(|(_, way)| known(*way));
+        let run = |&(name, way): &(&'static str, Way)| LoopRun {
             part: self.part,
             mesh: self.mesh,
             plan: self.plan,
             reference: Rc::clone(reference),
             name,
-            variant,
+            way,
             tolerance,
+            parameter: None,
         };
         loops.map(run).collect()
     }
@@ -157,13 +207,31 @@ impl Reference {
             problem,
             friction,
             reaction,
+            frames: Vec::new(),
+            whole: None,
         })
     }
 
-    /// (S2) of a reaction; NaN without any reaction.
+    /// (M2) of a reaction; NaN without any reaction.
     fn distance(&self, reaction: &[f64]) -> f64 {
         let difference = reaction.iter().zip(&self.reaction).map(|(a, b)| a - b);
         (self.energy(&difference.collect::<Vec<_>>()) / self.energy(&self.reaction)).sqrt()
+    }
+
+    /// How far the resultant of friction is off, relative to it; NaN without any.
+    fn friction_error(&self, reaction: &[f64]) -> f64 {
+        let resultant = |reaction: &[f64]| {
+            let mut sum = [0.0; 3];
+            for (frame, block) in self.frames.iter().zip(self.problem.blocks()) {
+                for (axis, t) in frame.iter().zip(&reaction[block]).skip(1) {
+                    (0..3).for_each(|k| sum[k] += axis[k] * t);
+                }
+            }
+            sum
+        };
+        let size = |sum: [f64; 3]| sum.iter().fold(0.0, |s: f64, x| s.hypot(*x));
+        let (found, exact) = (resultant(reaction), resultant(&self.reaction));
+        size([0, 1, 2].map(|k| found[k] - exact[k])) / size(exact)
     }
 
     /// `t · G t`, in joule.
@@ -178,9 +246,10 @@ impl Reference {
 impl LoopRun<'_> {
     /// The run in words.
     pub(super) fn name(&self) -> String {
-        match self.reference.friction {
-            None => format!("{} to {:.0e}", self.name, self.tolerance),
-            Some(friction) => format!("{} with friction {friction}", self.name),
+        match (self.reference.friction, self.parameter) {
+            (None, None) => format!("{} to {:.0e}", self.name, self.tolerance),
+            (None, Some(parameter)) => format!("{} of {parameter:.0e}", self.name),
+            (Some(friction), _) => format!("{} with friction {friction}", self.name),
         }
     }
 
@@ -201,10 +270,13 @@ impl LoopRun<'_> {
             name: self.name,
             friction: self.reference.friction,
             tolerance: self.tolerance,
+            parameter: self.parameter,
+            whole: self.way.is_whole(),
             status: outcome.status.into(),
             natural_map: certificate.natural_map,
             energy_gap: gap.sqrt(),
             distance: self.reference.distance(&outcome.reaction),
+            friction_error: self.reference.friction_error(&outcome.reaction),
             contacts: self.reference.problem.contacts(),
             sweeps: if self.is_baseline() {
                 0
@@ -228,13 +300,21 @@ impl LoopRun<'_> {
             ..Settings::default()
         };
         let start = Instant::now();
-        let outcome = match self.variant {
-            None => alternation::solve(problem, &settings)?,
-            // A penalty has no tolerance: it is as near as its springs are stiff.
-            Some(Variant::Penalty(_)) => {
-                Variant::Penalty(self.tolerance.sqrt().recip()).solve(problem, &settings)?
+        // A penalty has no tolerance: it is as near as its springs are stiff.
+        let springs = self.parameter.unwrap_or(self.tolerance.sqrt().recip());
+        let whole = self
+            .reference
+            .whole
+            .as_ref()
+            .filter(|_| self.way.is_whole());
+        let outcome = match (self.way, whole) {
+            (Way::WholePenalty, Some(whole)) => whole.solve(problem, &settings, Some(springs))?,
+            (_, Some(whole)) => whole.solve(problem, &settings, None)?,
+            (Way::Loop(Variant::Penalty(_)), None) => {
+                Variant::Penalty(springs).solve(problem, &settings)?
             }
-            Some(variant) => variant.solve(problem, &settings)?,
+            (Way::Loop(variant), None) => variant.solve(problem, &settings)?,
+            (_, None) => alternation::solve(problem, &settings)?,
         };
         let seconds = match self.is_baseline() {
             true => outcome.work.seconds.predict,
@@ -244,12 +324,17 @@ impl LoopRun<'_> {
     }
 
     fn is_baseline(&self) -> bool {
-        self.variant == Some(Variant::Nsgs)
+        self.way == Way::Loop(Variant::Nsgs)
     }
 
     fn most_sweeps(&self) -> usize {
         if !self.is_baseline() {
-            return self.plan.sweeps;
+            let most = if self.way.is_whole() {
+                MOST_STEPS
+            } else {
+                usize::MAX
+            };
+            return self.plan.sweeps.min(most);
         }
         let work = (self.reference.problem.unknowns() as f64).powi(2);
         self.plan.passes.min((MOST_WORK / work).ceil() as usize)

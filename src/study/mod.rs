@@ -1,27 +1,30 @@
 //! STUDY: one scene over meshes, tolerances, friction and loops: how fast, how wrong.
 //!
 //! ```text
-//! (S1)  mesh       relative difference to the finest mesh in the energy norm, and to known totals
-//! (S2)  loop       ‖t − t*‖_G / ‖t*‖_G on one mesh, t* the default loop's at the tightest tolerance
-//! (S3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
-//! (S4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
-//! (S5)  half-steps to the last digit  so that loops differ in nothing but what they are named for
-//! (S8)  half-spaces in place of the bodies: the difference of pressures as a field
-//! (S6)  penalty    springs of ε = τ^(−1/2) times a contact's own stiffness, at a tolerance τ; (S7) multipliers around them
+//! (M1)  mesh       relative difference to the finest mesh in the energy norm, and to known totals
+//! (M2)  loop       ‖t − t*‖_G / ‖t*‖_G on one mesh, t* the default loop's at the tightest tolerance
+//! (M3)  judge      natural map, and √(η / ½ t·G t) of the bipotential gap
+//! (M4)  seconds ~ unknowns^p          least squares of the logarithms over the finest meshes
+//! (M5)  half-steps to the last digit  so that loops differ in nothing but what they are named for
+//! (M8)  half-spaces in place of the bodies: the difference of pressures as a field
+//! (M6)  penalty    springs of ε = τ^(−1/2) times a contact's own stiffness, at a tolerance τ; (M7) multipliers around them
 //! ```
 //!
-//! Panagiotopoulos' alternation on displacements poses the two half-steps in their primal form, so that its iterates are those
-//! of the plain sweeps.
+//! Rivals, a file each: penalty and augmented Lagrangian (M6), (M7) in `penalty`, whole bodies that are factorised anew in every
+//! step (M9) in `active_set`, the alternation on displacements (M10), (M11) in `panagiotopoulos`. Their seconds are held
+//! against those of a whole solve from the assembled stiffness on: ordering, factorisation, condensation and loop.
 //!
 //! A mesh that is generated is refined by its number of cells; meshes from files are given as a
 //! list. Loops are compared on the finest mesh whose contact surface is small enough for all of
 //! them, on an operator that is condensed once, so that its cost counts on no side. What takes less
 //! than a quarter of a second is repeated, and the median is kept.
 
+mod active_set;
 mod exact;
 mod half_space;
 mod ladder;
 mod loops;
+mod panagiotopoulos;
 mod penalty;
 mod plan;
 mod tensor_grid;
@@ -63,7 +66,7 @@ pub fn study(
         }
     }
     let (meshes, chosen) = ladder.finish();
-    let compared = chosen.map(|(mesh, problem)| loops::all(mesh, &problem, plan));
+    let compared = chosen.map(|chosen| loops::all(&chosen, plan));
     let compared = compared.transpose()?.unwrap_or_default();
     let of = scenes.len() + compared.len();
     for (at, run) in compared.iter().enumerate() {

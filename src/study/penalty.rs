@@ -1,8 +1,8 @@
 //! Penalty, and the augmented Lagrangian around it: contacts as springs that press and rub where they give way.
 //!
 //! ```text
-//! (S6)  penalty     t_N = −ε ⟨u_N − g₀⟩₊,   t_T = P_disc(−ε u_T)          ⇔  the laws with G + 1/ε in place of G
-//! (S7)  augmented   t ← laws with G + 1/ε and û − λ/ε,   λ ← t            Uzawa's iteration on the multipliers
+//! (M6)  penalty     t_N = −ε ⟨u_N − g₀⟩₊,   t_T = P_disc(−ε u_T)          ⇔  the laws with G + 1/ε in place of G
+//! (M7)  augmented   t ← laws with G + 1/ε and û − λ/ε,   λ ← t            Uzawa's iteration on the multipliers
 //! ```
 //!
 //! ε is a multiple of each contact's own stiffness 1/G_kk, so that it has no unit. Both are solved here by
@@ -16,7 +16,7 @@ use crate::error::Error;
 use crate::problem::{ContactProblem, Operator};
 
 impl Run<'_> {
-    /// (S6), once: another pass gives the same.
+    /// (M6), once: another pass gives the same.
     pub(super) fn penalty(&mut self, parameter: f64) -> Result<(), Error> {
         let (softened, _) = softened(self.problem, parameter)?;
         let found = solve(&softened, &self.inner())?;
@@ -25,7 +25,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// One pass of (S7).
+    /// One pass of (M7).
     pub(super) fn augmented(&mut self, parameter: f64) -> Result<(), Error> {
         let (softened, spring) = match self.softened.take() {
             Some(known) => known,
@@ -59,22 +59,27 @@ impl Run<'_> {
 
 /// The problem with a spring in front of every contact, and its compliance 1/ε per unknown, in m/N.
 fn softened(problem: &ContactProblem, parameter: f64) -> Result<(ContactProblem, Vec<f64>), Error> {
+    let spring = springs(problem, parameter);
     let mut compliance = problem.compliance().clone();
-    let mut spring = vec![0.0; problem.unknowns()];
-    for block in problem.blocks() {
-        let tangents = block.start + 1..block.end;
-        let trace: f64 = tangents.clone().map(|k| compliance[(k, k)]).sum();
-        spring[block.start] = compliance[(block.start, block.start)] / parameter;
-        for k in tangents.clone() {
-            // The same in all directions, so that friction opposes slip.
-            spring[k] = trace / tangents.len() as f64 / parameter;
-        }
-    }
     for (k, spring) in spring.iter().enumerate() {
         compliance[(k, k)] += spring;
     }
     let operator = Operator::from_bodies(compliance)?;
     Ok((problem.with_operator(operator), spring))
+}
+
+/// 1/ε of springs that are so many times as stiff as their contact, in m/N per unknown.
+pub(super) fn springs(problem: &ContactProblem, parameter: f64) -> Vec<f64> {
+    let own = problem.compliance();
+    let mut spring = vec![0.0; problem.unknowns()];
+    for block in problem.blocks() {
+        let tangents = block.start + 1..block.end;
+        let trace: f64 = tangents.clone().map(|k| own[(k, k)]).sum();
+        spring[block.start] = own[(block.start, block.start)] / parameter;
+        // The same in all directions, so that friction opposes slip.
+        spring[tangents.clone()].fill(trace / tangents.len().max(1) as f64 / parameter);
+    }
+    spring
 }
 
 #[cfg(test)]

@@ -16,6 +16,8 @@ pub struct Plan {
     pub tolerances: Vec<f64>,
     /// Coefficients of friction, each for all contacts; empty for none but the scene's.
     pub friction: Vec<f64>,
+    /// Penalties that are tried: springs over the contacts' own stiffness, from soft to stiff.
+    pub penalties: Vec<f64>,
     /// Totals that are known, by their column of a [`Table`](crate::report::Table), none of them 0.
     pub known: Vec<(String, f64)>,
     /// Loops are compared on the finest mesh with at most so many contact unknowns.
@@ -46,6 +48,9 @@ impl Default for Plan {
             meshes: Vec::new(),
             tolerances: vec![1e-4, 1e-8, 1e-12],
             friction: vec![0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0],
+            penalties: (0..=14)
+                .map(|half| 10_f64.powf(0.5 * f64::from(half)))
+                .collect(),
             known: Vec::new(),
             loop_unknowns: 600,
             sweeps: 100,
@@ -63,6 +68,7 @@ impl Plan {
             refine: vec![1.0, 2.0],
             tolerances: vec![1e-4, 1e-10],
             friction: vec![0.2, 1.0],
+            penalties: vec![1e1, 1e3],
             loop_unknowns: 150,
             sweeps: 40,
             passes: 2_000,
@@ -96,6 +102,9 @@ impl Plan {
             (1e-15..=1e-2).contains(&x)
         })?;
         all("friction", &self.friction, "0 < friction < infinity", |x| {
+            x > 0.0 && x.is_finite()
+        })?;
+        all("penalties", &self.penalties, "0 < factor < infinity", |x| {
             x > 0.0 && x.is_finite()
         })?;
         let known: Vec<f64> = self.known.iter().map(|known| known.1).collect();
@@ -169,6 +178,7 @@ mod tests {
             (|p| p.tolerances = vec![1e-16], "plan.tolerances"),
             (|p| p.friction = vec![-0.1], "plan.friction"),
             (|p| p.known = vec![("normal".into(), 0.0)], "plan.known"),
+            (|p| p.penalties = vec![0.0], "plan.penalties"),
             (|p| p.passes = 0, "plan.passes"),
         ] {
             let refused = plan(change).unwrap_err();

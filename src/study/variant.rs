@@ -3,8 +3,9 @@
 //! ```text
 //! sweeps      (H1), then t_N as it is, or part of the way, or accelerated, then (H2); full programs, no prediction
 //! full cone   (H8) with the slip of its own minimiser as shift, accelerated, until both are one
-//! penalty     springs in place of contacts (S6), and multipliers around them (S7)
+//! penalty     springs in place of contacts (M6), and multipliers around them (M7)
 //! Newton      whole Newton steps (D4) from rest, with nothing that would catch them
+//! primal      the alternation of Panagiotopoulos, on displacements (M10), (M11)
 //! NSGS        Gauss–Seidel passes (D1), (D2) on all contacts: the baseline
 //! ```
 
@@ -13,6 +14,7 @@ use std::time::Instant;
 use faer::Mat;
 
 use super::exact;
+use super::panagiotopoulos::Primal;
 use crate::alternation::{
     Anderson, GaussSeidel, Outcome, Settings, Shortfall, Status, SweepRecord, Work, finish,
 };
@@ -36,12 +38,14 @@ pub enum Variant {
     Sweeps(Sweeps),
     /// Fixed point of one program over all Coulomb cones (H8).
     FullCone,
-    /// Springs of so many times the contacts' own stiffness (S6).
+    /// Springs of so many times the contacts' own stiffness (M6).
     Penalty(f64),
-    /// Uzawa's iteration around such springs (S7).
+    /// Uzawa's iteration around such springs (M7).
     Augmented(f64),
     /// Generalised Newton steps from rest (Alart, Curnier): an active set without safeguards.
     Newton,
+    /// The alternation on displacements: Signorini's problem, then Tresca's (M10), (M11).
+    Panagiotopoulos,
     /// Projected block Gauss–Seidel on all contacts, the baseline.
     Nsgs,
 }
@@ -76,6 +80,7 @@ impl Variant {
                     run.newton()?;
                     run.given_up = !run.is_solved();
                 }
+                Self::Panagiotopoulos => run.alternate(),
                 Self::Nsgs => run.pass(),
             }
             run.end(start);
@@ -126,7 +131,7 @@ impl Variant {
 pub struct Sweeps {
     /// What follows the normal half-step.
     pub mixing: Mixing,
-    /// Half-steps to the last digit (S5); else tied to the outer residual.
+    /// Half-steps to the last digit (M5); else tied to the outer residual.
     pub exact: bool,
     /// A Newton finish after every sweep.
     pub finish: bool,
@@ -157,7 +162,9 @@ pub(super) struct Run<'a> {
     shift: Vec<f64>,
     pub(super) reaction: Vec<f64>,
     verdict: Verdict,
-    /// Of (S7).
+    /// Of (M10).
+    pub(super) primal: Option<Primal>,
+    /// Of (M7).
     pub(super) softened: Option<(ContactProblem, Vec<f64>)>,
     best: (Vec<f64>, Verdict),
     pub(super) given_up: bool,
@@ -167,7 +174,7 @@ pub(super) struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    fn new(problem: &'a ContactProblem, settings: &'a Settings) -> Self {
+    pub(super) fn new(problem: &'a ContactProblem, settings: &'a Settings) -> Self {
         let judge = Judge::new(problem);
         let reaction = vec![0.0; problem.unknowns()];
         let verdict = judge.measure(&reaction);
@@ -181,6 +188,7 @@ impl<'a> Run<'a> {
             coulomb: None,
             anderson: Anderson::default(),
             shift: vec![0.0; problem.contacts()],
+            primal: None,
             softened: None,
             best: (reaction.clone(), verdict.clone()),
             reaction,
@@ -196,7 +204,7 @@ impl<'a> Run<'a> {
         self.best.1.certificate.residual() <= self.settings.tolerance
     }
 
-    fn goes_on(&self) -> bool {
+    pub(super) fn goes_on(&self) -> bool {
         !self.is_solved() && !self.given_up && self.work.sweeps < self.settings.max_sweeps
     }
 
@@ -282,6 +290,19 @@ impl<'a> Run<'a> {
         }
     }
 
+    fn alternate(&mut self) {
+        let primal = self.primal.take().or_else(|| Primal::new(self.problem));
+        let steps = primal.and_then(|mut primal| {
+            let steps = primal.alternate(self.problem, &mut self.reaction);
+            self.primal = Some(primal);
+            steps
+        });
+        self.given_up = steps.is_none();
+        self.record.newton_steps = steps.unwrap_or(0);
+        self.work.newton_steps += steps.unwrap_or(0);
+        self.measure();
+    }
+
     fn full_cone(&mut self) {
         let none = Mat::zeros(self.problem.unknowns(), 0);
         let tolerance = FULL_TOLERANCE.0 * TIGHTER.powi(self.work.coulomb_programs as i32);
@@ -333,7 +354,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    fn end(&mut self, start: Instant) {
+    pub(super) fn end(&mut self, start: Instant) {
         let status = &self.verdict.status;
         let count = |wanted| status.iter().filter(|status| **status == wanted).count();
         self.record.open_stick_slip = [
@@ -351,7 +372,7 @@ impl<'a> Run<'a> {
         normals.iter().map(|&n| self.reaction[n]).collect()
     }
 
-    fn into_outcome(self) -> Outcome {
+    pub(super) fn into_outcome(self) -> Outcome {
         let solved = self.is_solved();
         let shortfall = match self.given_up {
             true => Shortfall::ConeSolver,

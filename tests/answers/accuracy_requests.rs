@@ -39,7 +39,9 @@ fn friction() -> Vec<(Scene, Vec<Asked>)> {
 
 /// A rigid cylinder on half of a block that is four hundred half-widths wide and high.
 fn hertz() -> (Scene, Vec<Asked>) {
-    let (load, radius, modulus) = (2e-3, 10.0, 1.0 / 0.91);
+    // So light that a/R = 1.5e-4: normals that lean by x/R make Hertz himself wrong by 0.13 a/R of the peak, which at a load
+    // of 2e-3, where this is 0.2 %, is more than the meshes are off.
+    let (load, radius, modulus) = (2e-7, 10.0, 1.0 / 0.91);
     let exact = HertzLine::new(load, radius, modulus).unwrap();
     let a = exact.half_width;
     let lines = growing(a / 4.0, 2.0 * a, 400.0 * a);
@@ -121,7 +123,7 @@ fn bracket() -> Scene {
     with_meshes(&scene, vec![mesh])
 }
 
-/// The total on meshes that are finer by this many halvings than the first.
+/// The total on meshes that are finer by this many halvings than the first, one more than a request of its scene goes to.
 fn reference(scene: &Scene, of: &str, halvings: usize) -> f64 {
     let finest = (0..halvings).fold(scene.clone(), |scene, _| scene.with_halved_cells().unwrap());
     let request = Request {
@@ -136,10 +138,10 @@ fn reference(scene: &Scene, of: &str, halvings: usize) -> f64 {
 
 #[test]
 #[ignore = "minutes: twenty requests and finer meshes to hold them against"]
-fn the_stated_error_holds_the_true_one_in_seventeen_of_twenty_requests() {
+fn the_stated_error_holds_the_true_one_in_nineteen_of_twenty_requests() {
     let mut scenes = friction();
     scenes.push(hertz());
-    for (scene, of, halvings) in [(lug(), "contact_force_x", 4), (bracket(), "energy", 3)] {
+    for (scene, of, halvings) in [(lug(), "contact_force_x", 6), (bracket(), "energy", 3)] {
         let exact = reference(&scene, of, halvings);
         let asked = [0.01, 0.001].map(|within| (of.to_owned(), within, exact));
         scenes.push((scene, asked.into()));
@@ -157,14 +159,15 @@ fn the_stated_error_holds_the_true_one_in_seventeen_of_twenty_requests() {
             let (_, found) = solve_within(&scene, &request, |_| ()).unwrap();
             let off = (found.value - exact).abs();
             lines.push(format!(
-                "{of} to {within}: {} +- {:.1e}, off by {off:.1e} ({:.2} of it), rate {:.2?}, {} meshes, reached {}, {:.1} s",
+                "{of} to {within}: {} +- {:.1e}, off by {off:.1e} ({:.2} of it), rate {:.2?}, safety {}, reached {}, {:.1} s; meshes off by {:.2?} %",
                 found.value,
                 found.error,
                 off / found.error,
                 found.rate,
-                found.levels.len(),
+                found.safety,
                 found.reached,
-                start.elapsed().as_secs_f64()
+                start.elapsed().as_secs_f64(),
+                found.levels.iter().map(|level| 100.0 * (level.value / exact - 1.0)).collect::<Vec<_>>(),
             ));
             held += usize::from(off <= found.error);
         }
@@ -175,7 +178,5 @@ fn the_stated_error_holds_the_true_one_in_seventeen_of_twenty_requests() {
         &table,
     )
     .unwrap();
-    // Off by more: Hertz' peak, which lies on other nodes of every mesh (3.0 of what is stated, twice), and the lug's
-    // force (1.3).
-    assert!(lines.len() == 20 && held >= 17, "{held}:\n{table}");
+    assert!(lines.len() == 20 && held >= 19, "{held}:\n{table}");
 }

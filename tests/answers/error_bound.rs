@@ -90,25 +90,10 @@ impl Case {
 
 /// SSNV128: stress without bound nowhere, friction along the whole side.
 fn square(cells: usize, kind: CellKind) -> Case {
-    let scene = json!({
-        "bodies": [{
-            "name": "square", "mesh": {"file": "given in code"},
-            "model": "plane_strain",
-            "materials": [{"young": 1.3e11, "poisson": 0.2}],
-            "supports": [
-                {"group": "right", "displacement": [0, null]},
-                {"at": [0.04, 0], "displacement": [null, 0]}
-            ],
-            "loads": [{"group": "top", "pressure": 5e7}, {"group": "left", "pressure": 15e7}]
-        }],
-        "contacts": [{
-            "group": "bottom", "friction": 1.0,
-            "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}}
-        }]
-    });
+    let scene = crate::square::scene(cells, 0.2, 1.0).to_json().unwrap();
     Case {
         name: "square",
-        scene,
+        scene: serde_json::from_str(&scene).unwrap(),
         meshes: vec![distorted([0.0, 0.04], [0.0, 0.04], [cells, cells], kind)],
     }
 }

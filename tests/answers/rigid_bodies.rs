@@ -7,6 +7,7 @@ use dpana::{Scene, Status, Variation, cases, limit, solve, solve_steps};
 use serde_json::{Value, json};
 
 use crate::axisymmetric::{certified, falling, growing, with_meshes};
+use crate::sensitivity::TOTALS;
 
 const YOUNG: f64 = 1.0;
 const MODULUS: f64 = YOUNG / 0.91;
@@ -657,13 +658,7 @@ fn what_is_given_to_a_rigid_body_changes_the_totals_as_differences_say() {
                 table
             };
             let (below, above) = (at(1.0 - 1e-5), at(1.0 + 1e-5));
-            for of in [
-                "normal",
-                "friction_x",
-                "contact_force_y",
-                "peak_pressure",
-                "largest_slip",
-            ] {
+            for of in TOTALS {
                 let [low, high] = [&below, &above].map(|table| table.column(of).unwrap()[0]);
                 let difference = (high - low) / 2e-5;
                 let off = (found.of(of).unwrap() - difference).abs();

@@ -10,6 +10,15 @@ use serde_json::{Value, json};
 
 use crate::hertz::parabola;
 
+/// Totals whose derivatives are compared with differences.
+pub(crate) const TOTALS: [&str; 5] = [
+    "normal",
+    "friction_x",
+    "contact_force_y",
+    "peak_pressure",
+    "largest_slip",
+];
+
 fn certified(scene: &Value) -> Solution {
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scene.json");
     let solution = solve(&Scene::from_json(&scene.to_string(), file).unwrap()).unwrap();
@@ -169,13 +178,7 @@ fn an_obstacle_that_moves_changes_the_totals_as_cases_say() {
             .iter()
             .find(|one| one.parameter == name)
             .unwrap();
-        for of in [
-            "normal",
-            "friction_x",
-            "contact_force_y",
-            "peak_pressure",
-            "largest_slip",
-        ] {
+        for of in TOTALS {
             let column = table.column(of).unwrap();
             let difference = (column[1] - column[0]) / 2e-6;
             let off = (found.of(of).unwrap() - difference).abs();

@@ -17,6 +17,7 @@ fn short(refine: &[f64]) -> Plan {
         refine: refine.to_vec(),
         tolerances: vec![1e-12],
         friction: Vec::new(),
+        penalties: vec![1e1, 1e2, 1e3, 1e4],
         passes: 2_000,
         repetitions: 1,
         ..Plan::default()
@@ -84,7 +85,7 @@ fn loops_on_the_square_take_the_sweeps_that_theory_gives_them() {
     }
     // Springs of a million times a contact's own stiffness leave about a millionth of the reaction, if rounding of
     // contacts that share them counts a hundred times at most; multipliers around soft ones leave nothing.
-    let rival = |name: &str| run(&study, Part::Loops, name, None);
+    let rival = |name: &str| run(&study, Part::Rivals, name, None);
     let penalty = rival("penalty");
     assert_eq!(penalty.status, ReportedStatus::NotConverged);
     assert!((1e-8..1e-4).contains(&penalty.distance), "{penalty:?}");
@@ -94,6 +95,36 @@ fn loops_on_the_square_take_the_sweeps_that_theory_gives_them() {
         augmented.distance < 1e-10 && augmented.sweeps > 5,
         "{augmented:?}"
     );
+    // One answer, whether multipliers stand in the matrix of whole bodies or displacements alternate.
+    for name in ["active set, whole bodies", "primal alternation"] {
+        let found = rival(name);
+        assert_eq!(found.status, ReportedStatus::Certified, "{found:?}");
+        assert!(
+            found.distance < 1e-10 && found.friction_error < 1e-10,
+            "{found:?}"
+        );
+    }
+    assert_eq!(
+        rival("primal alternation").sweeps,
+        run(&study, Part::Loops, "plain sweeps", None).sweeps
+    );
+    // Springs in the bodies' matrix are those in front of the condensed contacts; ten times as stiff, a tenth of the error.
+    let penalties = |name: &str| {
+        let tried = study
+            .runs
+            .iter()
+            .filter(|run| run.part == Part::Penalties && run.name == name);
+        tried.map(|run| run.distance).collect::<Vec<f64>>()
+    };
+    let (whole, condensed) = (penalties("penalty, whole bodies"), penalties("penalty"));
+    for (at, (a, b)) in whole.iter().zip(&condensed).enumerate() {
+        assert!((a / b - 1.0).abs() < 1e-6, "{whole:?} {condensed:?}");
+        assert!(
+            at == 0 || (0.05..0.2).contains(&(a / whole[at - 1])) || at == 1,
+            "{whole:?}"
+        );
+    }
+    assert_eq!(whole.len(), 4);
     // On 16 cells Gauss–Seidel converges, on 32 it does not; both to the same solution as far as
     // they come.
     let baseline = |mesh: usize| {
@@ -269,6 +300,7 @@ fn the_command_writes_page_tables_and_figures_that_need_nothing_else() {
         "mesh_error",
         "time_unknowns",
         "time_contacts",
+        "rivals",
         "time_error",
         "residual_time",
         "sweeps_friction",

@@ -2,30 +2,12 @@
 
 use std::fs;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::program::{dpana, folder};
 
-/// The SSNV128 square on a coarse mesh.
 fn square(cells: usize) -> String {
-    let scene = json!({
-        "bodies": [{
-            "name": "square",
-            "mesh": {"rectangle": {"x": [0, 0.04], "y": [0, 0.04], "cells": [cells, cells]}},
-            "model": "plane_strain",
-            "materials": [{"young": 1.3e11, "poisson": 0.2}],
-            "supports": [
-                {"group": "right", "displacement": [0, null]},
-                {"at": [0.04, 0], "displacement": [null, 0]}
-            ],
-            "loads": [{"group": "top", "pressure": 5e7}, {"group": "left", "pressure": 15e7}]
-        }],
-        "contacts": [{
-            "group": "bottom", "friction": 1.0,
-            "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}}
-        }]
-    });
-    scene.to_string()
+    crate::square::scene(cells, 0.2, 1.0).to_json().unwrap()
 }
 
 fn run(name: &str, scene: &str, arguments: &[&str]) -> (Option<i32>, String, String) {

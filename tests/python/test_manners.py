@@ -167,6 +167,32 @@ def test_bodies_go_by_name_or_number():
     assert 0 < result.stress_error_estimate() < 1
 
 
+def test_the_error_of_the_stress_has_a_bound_or_a_reason_why_not():
+    result = dpana.Scene(
+        {
+            "bodies": [
+                {
+                    "mesh": {"rectangle": {"x": [0, 2], "y": [0, 1], "cells": [8, 4]}},
+                    "model": "plane_strain",
+                    "materials": [{"young": 1000, "poisson": 0.3}],
+                    "supports": [{"group": "top", "displacement": [0, -0.01]}],
+                }
+            ],
+            "contacts": [
+                {
+                    "group": "bottom",
+                    "friction": 0.9,
+                    "obstacle": {"plane": {"point": [0, 0], "normal": [0, 1]}},
+                }
+            ],
+        }
+    ).solve()
+    estimate, bound = result.stress_error_estimate(), result.stress_error_bound()
+    assert 0.5 * estimate < bound < 3 * estimate
+    with pytest.raises(dpana.Error, match="3D|plane"):
+        dpana.solve(SCENES / "cube.json").stress_error_bound()
+
+
 def test_the_stubs_name_what_there_is():
     package = Path(dpana.__file__).parent
     assert (package / "py.typed").exists()

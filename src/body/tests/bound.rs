@@ -4,19 +4,11 @@
 
 use nalgebra::Vector3;
 
-use super::samples::{block, body, distorted, facets, hold, solve, support};
+use super::samples::{PLANE, block, body, distorted, facets, hold, solve, support};
 use crate::body::{
     Affine, Body, CellKind, Line, Load, Material, Mesh, Model, Support, Wrench, stiffness,
     stress_error_bound, stress_recovery,
 };
-
-const PLANE: [CellKind; 5] = [
-    CellKind::Tri3,
-    CellKind::Quad4,
-    CellKind::Tri6,
-    CellKind::Quad8,
-    CellKind::Quad9,
-];
 
 const MODELS: [Model; 3] = [
     Model::PlaneStrain,

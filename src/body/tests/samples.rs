@@ -9,6 +9,15 @@ use crate::body::{
     rectangle,
 };
 
+/// Cells of plane bodies.
+pub(crate) const PLANE: [CellKind; 5] = [
+    CellKind::Tri3,
+    CellKind::Quad4,
+    CellKind::Tri6,
+    CellKind::Quad8,
+    CellKind::Quad9,
+];
+
 /// A block of 2 × 1 (× 1) m with 4 × 2 (× 2) uneven cells, `E = 10 Pa`, `ν = 0.3`.
 pub(crate) fn block(kind: CellKind) -> Body {
     let (xs, ys) = (
