@@ -154,6 +154,7 @@ fn row(scene: &Scene, size: usize) -> Result<String, Box<dyn Error>> {
 }
 
 /// Prints the largest memory that each stage held, and when it was over, as the next begins.
+#[allow(clippy::print_stderr)]
 fn watch() {
     let (start, mut stage) = (Instant::now(), dpana::stage::progress().stage);
     let mut most = 0.0_f64;
@@ -163,7 +164,6 @@ fn watch() {
         if now != stage {
             let peak = peak_memory().unwrap_or(f64::NAN);
             let seconds = start.elapsed().as_secs_f64();
-            #[allow(clippy::print_stderr)]
             eprintln!("{}: {peak:.0} MiB, until {seconds:.2} s", stage.name());
             stage = now;
             // The largest memory of all is asked for at the end.

@@ -11,7 +11,7 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::solve_unit_lower_triangular_in_place;
-use faer::perm::{PermRef, permute_rows_in_place, permute_rows_in_place_scratch};
+use faer::perm::PermRef;
 use faer::{Accum, Col, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
@@ -141,15 +141,19 @@ fn eliminate(panel: MatMut<'_, f64>) -> [Vec<usize>; 2] {
     rows
 }
 
-/// Rows of other columns in the order of a panel's.
+/// Rows of other columns in the order of a panel's; only those that moved are touched.
 fn exchange(columns: MatMut<'_, f64>, rows: &[Vec<usize>; 2]) {
-    let (height, width) = (columns.nrows(), columns.ncols());
-    let room = permute_rows_in_place_scratch::<usize, f64>(height, width);
-    permute_rows_in_place(
-        columns,
-        PermRef::new_checked(&rows[0], &rows[1], height),
-        MemStack::new(&mut MemBuffer::new(room)),
-    );
+    let moved = rows[0].iter().enumerate().filter(|(to, from)| to != *from);
+    let moved: Vec<(usize, usize)> = moved.map(|(to, &from)| (to, from)).collect();
+    let mut held = vec![0.0; moved.len()];
+    for mut column in columns.col_iter_mut() {
+        for (held, &(_, from)) in held.iter_mut().zip(&moved) {
+            *held = column[from];
+        }
+        for (held, &(to, _)) in held.iter().zip(&moved) {
+            column[to] = *held;
+        }
+    }
 }
 
 /// What a panel's elimination makes of columns after it.

@@ -373,7 +373,7 @@ pub(super) fn matrix(
         let moved = |at: usize| roots[at] * moved[at];
         let mut row = 0;
         for law in laws {
-            let (mut moved, mut reaction) = (law.local(&moved), [0.0; 3]);
+            let (mut moved, mut reaction) = (law.local(moved), [0.0; 3]);
             if law.contact == own.contact {
                 reaction = direction;
                 (0..3).for_each(|k| moved[k] += softness * direction[k]);
