@@ -2,12 +2,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::bolt::Sections;
 use super::cyclic::Repeat;
 use super::history::History;
 use super::material::Materials;
 use super::pair::{Contacts, Pair};
 use super::parts::{Part, Parts};
+use super::pre_tension::Sections;
 use super::rigid::RigidGroups;
 use super::statement::Notes;
 use super::transform::Transforms;

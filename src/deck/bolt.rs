@@ -4,106 +4,17 @@
 //! carries, and `*BOUNDARY, FIXED` locks it. Both are along a vector that is stated, or along the normal out of
 //! the elements whose faces are named; along that normal a positive one pulls.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use super::acting::largest;
 use super::assemble::{Building, Stock, Tables};
 use super::load::Slot;
-use super::parts::Parts;
-use super::statement::Statement;
-use super::transform::{dot, numbers};
+use super::pre_tension::Section;
+use super::transform::dot;
 use crate::body::{Facet, Group};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, Contents, Side};
+use crate::mesh_file::abaqus::Contents;
 use crate::scene::SceneBolt;
-
-/// Sine of the angle by which a stated vector may lie off the normal of the section.
-const ASIDE: f64 = 1e-3;
-
-/// A section.
-#[derive(Debug)]
-pub(super) struct Section<'a, 'c> {
-    /// Faces on one side of the cut.
-    sides: Vec<Side>,
-    /// The vector that is stated.
-    direction: Option<[f64; 3]>,
-    /// The connected part that is cut.
-    pub(super) part: usize,
-    /// Where it is stated.
-    card: &'c Card<'a>,
-}
-
-/// All sections of a deck, and their reference nodes.
-#[derive(Debug, Default)]
-pub(super) struct Sections<'a, 'c> {
-    pub(super) sections: Vec<Section<'a, 'c>>,
-    of_node: BTreeMap<usize, usize>,
-}
-
-impl<'a, 'c> Sections<'a, 'c> {
-    pub(super) fn new(
-        statement: &Statement<'a, 'c>,
-        contents: &Contents,
-        parts: &Parts,
-    ) -> Result<Self, Error> {
-        let mut found = Self::default();
-        let model = statement.model.iter();
-        for &(scope, card) in model.filter(|(_, card)| card.name == "PRE-TENSIONSECTION") {
-            if card.get("ELEMENT").is_some() {
-                return Err(card.error("`ELEMENT=` is not read: beams"));
-            }
-            card.only(&["SURFACE", "NODE"])?;
-            let head = card.head(scope);
-            let sides = contents.section(head, card.need("SURFACE")?)?;
-            let [node] = contents.nodes.members(head, card.need("NODE")?)?[..] else {
-                return Err(card.error("`NODE=`: expected one node"));
-            };
-            if parts.of_node[node].is_some() || found.of_node.contains_key(&node) {
-                return Err(card.error(
-                    "a reference node of elements, or of another section; expected a node of its own",
-                ));
-            }
-            let mut of_sides = sides.iter().map(|side| parts.of_cell[side.0]);
-            let part = of_sides
-                .next()
-                .filter(|part| of_sides.all(|other| other == *part));
-            let apart = || card.error("expected faces of one connected part");
-            let direction = match card.rows(scope).next() {
-                Some(_) => Some(numbers(card.row("a vector")?)?),
-                None => None,
-            };
-            found.of_node.insert(node, found.sections.len());
-            found.sections.push(Section {
-                sides: sides.iter().copied().collect(),
-                direction,
-                part: part.ok_or_else(apart)?,
-                card,
-            });
-        }
-        Ok(found)
-    }
-
-    /// The section whose reference node it is.
-    pub(super) fn of(&self, node: usize) -> Option<usize> {
-        self.of_node.get(&node).copied()
-    }
-}
-
-impl Section<'_, '_> {
-    /// Whether what is stated pulls (1) or presses (−1), beside the normal out of the faces.
-    fn sign(&self, outward: [f64; 3]) -> Result<f64, Error> {
-        let Some(stated) = self.direction else {
-            return Ok(1.0);
-        };
-        let cosine = dot(stated, outward) / dot(stated, stated).sqrt();
-        match 1.0 - cosine * cosine < ASIDE * ASIDE {
-            true => Ok(cosine.signum()),
-            false => Err(self.card.error(format!(
-                "the vector {stated:?} aside of the section's normal {outward:?}; expected one along it"
-            ))),
-        }
-    }
-}
 
 impl Stock<'_, '_> {
     /// Bolts.

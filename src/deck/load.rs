@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
-use super::bolt::Sections;
 use super::material::Materials;
 use super::parts::Parts;
+use super::pre_tension::Sections;
 use super::rigid::RigidGroups;
 use super::statement::{Notes, Stated};
 use super::transform::Transforms;

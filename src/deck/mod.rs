@@ -5,7 +5,8 @@
 //! statement          which cards state the model, which the steps, which are left or refused
 //! material, parts    sections, constants, orientations; connected parts become bodies
 //! interaction, pair  laws, and the surfaces that obey them; adjust   slave nodes moved onto the master
-//! transform, rigid, cyclic, bolt   directions of nodes, nodes that move as one, sectors that repeat, preload
+//! transform, rigid, cyclic          directions of nodes, nodes that move as one, sectors that repeat
+//! pre_tension, bolt                 bolts under preload
 //! load, amplitude    what a card gives;            history  what holds at every instant
 //! acting, assemble   the scene
 //! ```
@@ -69,7 +70,9 @@ mod material;
 mod orientation;
 mod pair;
 mod parts;
+mod pre_tension;
 mod rigid;
+
 mod statement;
 mod transform;
 
@@ -81,13 +84,13 @@ use crate::scene::{Scene, read};
 
 use amplitude::amplitudes;
 use assemble::Stock;
-use bolt::Sections;
 use cyclic::repeats;
 use history::History;
 use load::Reader;
 use material::Materials;
 use pair::Contacts;
 use parts::Parts;
+use pre_tension::Sections;
 use rigid::RigidGroups;
 use statement::{Notes, Statement};
 use transform::Transforms;

@@ -117,12 +117,12 @@ fn loops_on_the_square_take_the_sweeps_that_theory_gives_them() {
         tried.map(|run| run.distance).collect::<Vec<f64>>()
     };
     let (whole, condensed) = (penalties("penalty, whole bodies"), penalties("penalty"));
-    for (at, (a, b)) in whole.iter().zip(&condensed).enumerate() {
-        assert!((a / b - 1.0).abs() < 1e-6, "{whole:?} {condensed:?}");
-        assert!(
-            at == 0 || (0.05..0.2).contains(&(a / whole[at - 1])) || at == 1,
-            "{whole:?}"
-        );
+    // The softest leave the square two states, which differ by a hundredth of that error; the judge certifies both.
+    for ((a, b), close) in whole.iter().zip(&condensed).zip([0.05, 1e-6, 1e-6, 1e-6]) {
+        assert!((a / b - 1.0).abs() < close, "{whole:?} {condensed:?}");
+    }
+    for errors in whole.windows(2) {
+        assert!((0.05..0.2).contains(&(errors[1] / errors[0])), "{whole:?}");
     }
     assert_eq!(whole.len(), 4);
     // On 16 cells Gauss–Seidel converges, on 32 it does not; both to the same solution as far as

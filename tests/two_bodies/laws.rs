@@ -386,7 +386,10 @@ fn laws_are_refused_by_name_where_they_are_not_known() {
     let said = study(&tresca, &Plan::quick(), |_| {})
         .unwrap_err()
         .to_string();
-    assert!(said.contains("contacts[0]: a law"), "{said}");
+    assert!(
+        said.contains("contacts[0].law: a law") && said.contains("dpana solve"),
+        "{said}"
+    );
     let friction = Variation {
         name: "friction".to_owned(),
         values: vec![0.1],
