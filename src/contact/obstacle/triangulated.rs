@@ -57,7 +57,7 @@ impl Triangulated {
     ///
     /// # Errors
     ///
-    /// No triangles, a point that there is not, a NaN or infinity. Triangles without an area are left out.
+    /// No triangles, a point that there is not, a NaN or infinity. Triangles without an area are left out: what is thinner than round-off looks anywhere.
     pub fn new(place: &str, points: &[[f64; 3]], triangles: &[[usize; 3]]) -> Result<Self, Error> {
         let (points, number) = welded(place, points)?;
         let mut kept = Vec::with_capacity(triangles.len());
@@ -73,7 +73,10 @@ impl Triangulated {
             }
             let corners = triangle.map(|corner| number[corner]);
             let [a, b, c] = corners.map(|corner| points[corner]);
-            if let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) {
+            let across = (b - a).cross(&(c - a));
+            let longest = [b - a, c - b, a - c].map(|edge| edge.norm_squared());
+            let longest = longest.into_iter().fold(0.0, f64::max);
+            if let Some(normal) = across.try_normalize(ROUNDED * longest) {
                 kept.push(corners);
                 normals.push(normal);
             }
@@ -371,6 +374,20 @@ mod tests {
         // Over the diagonal of a face, and over the very edge, the face is seen.
         assert_eq!(cube.closest([0.0, 0.0, 2.0]).distance, 1.0);
         assert!(!cube.closest([1.0, 0.0, 2.0]).beyond);
+    }
+
+    #[test]
+    fn slivers_are_left_out() {
+        // The second triangle is thinner than round-off, and its normal lies in the plane of the first.
+        let points = [
+            [0.0, 0.0, 0.0],
+            [2.0, 0.0, 0.0],
+            [0.0, 2.0, 0.0],
+            [1.0, 0.0, 1e-12],
+        ];
+        let surface = Triangulated::new("part", &points, &[[0, 1, 2], [0, 3, 1]]).unwrap();
+        assert_eq!(surface.triangles(), [[0, 1, 2]]);
+        assert!(Triangulated::new("part", &points, &[[0, 3, 1]]).is_err());
     }
 
     #[test]
