@@ -168,7 +168,7 @@ def test_bodies_go_by_name_or_number():
 
 
 def test_the_error_of_the_stress_has_a_bound_or_a_reason_why_not():
-    result = dpana.Scene(
+    result = dpana.solve(
         {
             "bodies": [
                 {
@@ -186,7 +186,7 @@ def test_the_error_of_the_stress_has_a_bound_or_a_reason_why_not():
                 }
             ],
         }
-    ).solve()
+    )
     estimate, bound = result.stress_error_estimate(), result.stress_error_bound()
     assert 0.5 * estimate < bound < 3 * estimate
     with pytest.raises(dpana.Error, match="3D|plane"):
