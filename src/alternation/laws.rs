@@ -1,5 +1,4 @@
 //! What one contact does, and what its law says (D4), all scaled: `t/√ρ` and `√ρ (u − g)`.
-
 //!
 //! Along the direction d of a slip friction is what its bound says, whatever moves. It is taken out of the equations:
 //!

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::Vector3;
 
-use super::Mesh;
+use super::{Facet, Mesh};
 use crate::error::Error;
 
 /// Part of the cells' extent across a cut by which its nodes may lie off its plane.
@@ -73,6 +73,23 @@ impl Mesh {
         }
         self.refuse_others(at("group"), cells, &shared)?;
         self.part_from(&at("groups"), name, [&ahead, &behind], &shared)
+    }
+
+    /// Centre of some facets, in metre, and the sum of their areas along their normals: the plane that they lie in.
+    pub(crate) fn plane_of(&self, facets: &[Facet]) -> [[f64; 3]; 2] {
+        let (mut area, mut centre, mut along) = (0.0, [0.0; 3], [0.0; 3]);
+        for facet in facets {
+            let geometry = self.facet_geometry(facet);
+            area += geometry.area;
+            for axis in 0..3 {
+                let nodes = facet.nodes.iter().zip(geometry.weights);
+                centre[axis] += nodes
+                    .map(|(&node, w)| w * self.nodes[node][axis])
+                    .sum::<f64>();
+                along[axis] += geometry.area * geometry.normal[axis];
+            }
+        }
+        [centre.map(|x| x / area), along]
     }
 
     /// Refuses a cut that is not closed: other cells at its nodes hold the two parts together.

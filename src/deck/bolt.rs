@@ -72,20 +72,8 @@ impl Building {
         let dimension = self.mesh.dimension;
         let sides = section.sides.iter();
         let facets: Vec<Facet> = sides.map(|&side| self.facet(contents, side)).collect();
-        let (mut area, mut point, mut along) = (0.0, [0.0; 3], [0.0; 3]);
-        for facet in &facets {
-            let geometry = self.mesh.facet_geometry(facet);
-            area += geometry.area;
-            for axis in 0..3 {
-                let nodes = facet.nodes.iter().zip(&geometry.weights);
-                let moment: f64 = nodes
-                    .map(|(&node, w)| w * self.mesh.nodes[node][axis])
-                    .sum();
-                point[axis] += moment;
-                along[axis] += geometry.area * geometry.normal[axis];
-            }
-        }
-        let (point, size) = (point.map(|x| x / area), dot(along, along).sqrt());
+        let [point, along] = self.mesh.plane_of(&facets);
+        let size = dot(along, along).sqrt();
         let axis = along.map(|n| n / size);
         let nodes: BTreeSet<usize> = facets.into_iter().flat_map(|facet| facet.nodes).collect();
         let around = |&cell: &usize| self.mesh.cell(cell).nodes.iter().any(|n| nodes.contains(n));

@@ -6,7 +6,7 @@ use super::SceneGroup;
 use super::field::finite;
 use super::selection::{self, AT_NODE};
 use super::steps::LoadHistory;
-use crate::body::{Facet, Mesh, Model};
+use crate::body::{Mesh, Model};
 use crate::condensation::Driven;
 use crate::contact::{Component, ContactPair, Cut, Opposite, PairLaw, RigidBody};
 use crate::error::Error;
@@ -110,7 +110,7 @@ impl SceneBolt {
             selection::facets(mesh, &at(0), &faces[0])?,
             selection::facets(mesh, &at(1), &faces[1])?,
         ];
-        let [[centre, towards], other] = [0, 1].map(|side| place_of(mesh, &sides[side]));
+        let [[centre, towards], other] = [0, 1].map(|side| mesh.plane_of(&sides[side]));
         check_coincident(place, mesh, [[centre, towards], other])?;
         let towards = towards.map(|m| m / selection::norm(towards));
         if model == Model::Axisymmetric && towards[0].abs() > AT_NODE {
@@ -181,23 +181,6 @@ impl SceneBolt {
             (None, None) => refuse("", "no `force` and no `shortening`", "one of the two"),
         }
     }
-}
-
-/// Centre of some facets, in metre, and the sum of their areas along their normals.
-fn place_of(mesh: &Mesh, facets: &[Facet]) -> [[f64; 3]; 2] {
-    let (mut area, mut centre, mut along) = (0.0, [0.0; 3], [0.0; 3]);
-    for facet in facets {
-        let geometry = mesh.facet_geometry(facet);
-        area += geometry.area;
-        for axis in 0..3 {
-            let nodes = facet.nodes.iter().zip(geometry.weights);
-            centre[axis] += nodes
-                .map(|(&node, w)| w * mesh.nodes[node][axis])
-                .sum::<f64>();
-            along[axis] += geometry.area * geometry.normal[axis];
-        }
-    }
-    [centre.map(|x| x / area), along]
 }
 
 /// Refuses faces that do not lie on each other.

@@ -78,8 +78,10 @@ impl Seat {
             size = size.max(meeting.skins[side].faces[face].size);
             for sample in meeting.on(side, face).map(|k| &meeting.samples[k]) {
                 normals.extend(sample.normals());
-                let in_plane = sample.normals().map(|normal| across(normal, &still));
-                normals.extend(in_plane.filter_map(|normal| normal.try_normalize(ALONG)));
+                if !still.is_empty() {
+                    let in_plane = sample.normals().map(|normal| across(normal, &still));
+                    normals.extend(in_plane.filter_map(|normal| normal.try_normalize(ALONG)));
+                }
                 let cosine = sample.towards.dot(&towards);
                 if cosine > ALONG {
                     let distance = sample.distance / cosine;
