@@ -18,6 +18,15 @@ use rayon::prelude::*;
 /// Power iterations.
 const ITERATIONS: usize = 8;
 
+/// A pivot, or a singular value, below this part of the largest is round-off.
+const SINGULAR: f64 = 1e-14;
+
+/// Part of a right side that the least solution may leave.
+const SOLVED: f64 = 1e-10;
+
+/// Unknowns up to which a singular matrix is decomposed.
+const SMALL: usize = 600;
+
 /// Unknowns beyond which it pays to divide the elimination among threads,
 const LARGE: usize = 1024;
 
@@ -76,6 +85,16 @@ impl Factored {
         solution
     }
 
+    /// Whether some direction moves nothing but for round-off.
+    pub(super) fn is_singular(&self) -> bool {
+        let pivots = self.lu.diagonal().column_vector();
+        let sizes = pivots.iter().map(|pivot| pivot.abs());
+        let (least, largest) = sizes.fold((f64::INFINITY, 0.0), |(least, most), size| {
+            (f64::min(least, size), f64::max(most, size))
+        });
+        least <= SINGULAR * largest
+    }
+
     /// Sign of the determinant.
     pub(super) fn sign(&self) -> f64 {
         let pivots = self.lu.diagonal().column_vector();
@@ -91,22 +110,26 @@ impl Factored {
 
     /// κ; infinite where the matrix is singular.
     pub(super) fn condition(&self) -> f64 {
-        // Uneven enough not to be at right angles with what it should find.
-        let rows = self.lu.nrows();
-        let mut vector = Col::from_fn(rows, |k| 1.0 + (2.4 * k as f64).sin());
-        let mut value = 0.0;
-        for _ in 0..ITERATIONS {
-            let length = vector.norm_l2();
-            if length == 0.0 || !length.is_finite() {
-                break;
-            }
-            vector = self.solve(&(vector * faer::Scale(length.recip())));
-            value = vector.norm_l2();
+        condition(self.size, self.lu.nrows(), |right| self.solve(right))
+    }
+}
+
+/// κ of a matrix of that largest column sum, by solving with it; infinite where it is singular.
+pub(super) fn condition(size: f64, rows: usize, solve: impl Fn(&Col<f64>) -> Col<f64>) -> f64 {
+    // Uneven enough not to be at right angles with what it should find.
+    let mut vector = Col::from_fn(rows, |k| 1.0 + (2.4 * k as f64).sin());
+    let mut value = 0.0;
+    for _ in 0..ITERATIONS {
+        let length = vector.norm_l2();
+        if length == 0.0 || !length.is_finite() {
+            break;
         }
-        match value.is_nan() {
-            true => f64::INFINITY,
-            false => self.size * value,
-        }
+        vector = solve(&(vector * faer::Scale(length.recip())));
+        value = vector.norm_l2();
+    }
+    match value.is_nan() {
+        true => f64::INFINITY,
+        false => size * value,
     }
 }
 
@@ -179,6 +202,35 @@ fn is_odd(permutation: &[usize]) -> bool {
     (permutation.len() - cycles) % 2 == 1
 }
 
+/// The least solution of a singular system, by singular values; none of a large one, or where there is none.
+pub(super) fn least_solution(matrix: &Mat<f64>, right: &Col<f64>) -> Option<Col<f64>> {
+    if matrix.nrows() > SMALL {
+        return None;
+    }
+    let decomposed = matrix.svd().ok()?;
+    let mut along = decomposed.U().transpose() * right;
+    let values = decomposed.S().column_vector();
+    for (along, value) in along.iter_mut().zip(values.iter()) {
+        let felt = *value > SINGULAR * values[0];
+        *along = if felt { *along / value } else { 0.0 };
+    }
+    let found = decomposed.V() * along;
+    let left = (times(matrix, &found) - right).norm_l2();
+    (left <= SOLVED * right.norm_l2()).then_some(found)
+}
+
+/// Adds so much of each column. Rows are divided among threads, each of which adds them up in their order.
+pub(super) fn add_columns(sum: &mut [f64], matrix: &Mat<f64>, parts: &[(usize, f64)]) {
+    let chunks = sum.par_chunks_mut(TAKEN).enumerate();
+    chunks.for_each(|(chunk, sum)| {
+        for &(column, part) in parts {
+            let entries = &matrix.col_as_slice(column)[chunk * TAKEN..];
+            let entries = sum.iter_mut().zip(entries);
+            entries.for_each(|(sum, entry)| *sum += part * entry);
+        }
+    });
+}
+
 /// `A x`, on one thread: several would add up in their own order.
 pub(crate) fn times(matrix: &Mat<f64>, vector: &Col<f64>) -> Col<f64> {
     let mut product = Col::zeros(matrix.nrows());
@@ -195,6 +247,7 @@ pub(crate) fn times(matrix: &Mat<f64>, vector: &Col<f64>) -> Col<f64> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
     use faer::mat;
 
@@ -204,6 +257,18 @@ mod tests {
         let found = Factored::new(mat![[1.0, 0.99], [0.99, 1.0]]).condition();
         // Power iterations that stop early; half a percent of an order of magnitude.
         assert!((found - 199.0).abs() < 1.0, "{found}");
+    }
+
+    #[test]
+    fn of_all_solutions_of_a_singular_system_the_least_is_found() {
+        // x + y = 2 twice, and a direction that moves nothing.
+        let matrix = mat![[1.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.0, 0.0, 0.0]];
+        let right = Col::from_fn(3, |k| [2.0, 2.0, 0.0][k]);
+        assert!(Factored::new(matrix.clone()).is_singular());
+        let found = least_solution(&matrix, &right).unwrap();
+        assert!((found[0] - 1.0).abs() + (found[1] - 1.0).abs() + found[2].abs() < 1e-14);
+        assert!(least_solution(&matrix, &Col::from_fn(3, |k| k as f64)).is_none());
+        assert!(!Factored::new(mat![[1.0, 1.0], [1.0, 1.0 + 1e-12]]).is_singular());
     }
 
     #[test]

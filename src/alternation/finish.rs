@@ -25,7 +25,8 @@
 
 use faer::{Col, Mat};
 
-use super::condition::Factored;
+use super::condition::{self, Factored, add_columns};
+use super::displacement_method::DisplacementMethod;
 use super::iterate::{Iterate, Motion};
 use super::laws::{self, Law, Local, roots};
 use crate::problem::ContactProblem;
@@ -55,8 +56,24 @@ pub(super) struct Finish<'a> {
     /// √ρ per unknown.
     pub(super) roots: Vec<f64>,
     rigid: Option<Rigid>,
-    last: Option<Factored>,
+    last: Option<System>,
 }
+
+/// The linear system of a step, factored.
+enum System {
+    /// Reactions are unknown.
+    Force(Factored),
+    /// Displacements are (D18).
+    Displacement(DisplacementMethod),
+}
+
+/// Rounds of refinement by (D18) at most, part of what one found that it may leave, and part of the first that is solved.
+const ROUNDS: usize = 8;
+const LEFT: f64 = 0.1;
+const SOLVED: f64 = 1e-12;
+
+/// What may be left of a step by (D18), as a part of the first or of all reactions, where no round gets further.
+const ENOUGH: [f64; 2] = [1e-8, 1e-13];
 
 /// What bodies that float do as a whole.
 struct Rigid {
@@ -133,16 +150,27 @@ impl<'a> Finish<'a> {
 
     /// Products of two numbers that the last step took.
     pub(super) fn products(&self) -> f64 {
-        self.last.as_ref().map_or(0.0, Factored::products)
+        self.last.as_ref().map_or(0.0, |system| match system {
+            System::Force(matrix) => matrix.products(),
+            System::Displacement(system) => system.products(),
+        })
     }
 
     /// Condition of the matrix of the last step; none before the first.
     pub(super) fn condition(&self) -> Option<f64> {
-        self.last.as_ref().map(Factored::condition)
+        self.last.as_ref().map(|system| match system {
+            System::Force(matrix) => matrix.condition(),
+            System::Displacement(system) => {
+                let laws = system.laws();
+                let size = laws::largest_sum(&laws, self.scaled());
+                let solve = |right: &Col<f64>| system.solve(self.scaled(), right);
+                condition::condition(size, laws::free(&laws), solve)
+            }
+        })
     }
 
-    /// One step; `None` if the matrix of (D4) is singular. What each contact does is read off the
-    /// reaction and `seen`, a displacement beyond the gaps: the point's own, or that of a neighbour.
+    /// One step, the least one where some motion or reaction changes nothing; `None` if there is none. What each contact
+    /// does is read off the reaction and `seen`, a displacement beyond the gaps: the point's own, or that of a neighbour.
     pub(super) fn step(
         &mut self,
         from: &Point,
@@ -156,34 +184,87 @@ impl<'a> Finish<'a> {
             })
             .collect();
         let mut next = self.opened(from, &laws);
-        for law in &laws {
+        let short = |law: &Law| {
             let local = self.local(law.contact, &next.reaction, &next.beyond, springs);
-            self.add_to(&mut next, law, law.short_of_bound(local.reaction));
-        }
+            law.short_of_bound(local.reaction)
+        };
+        let short: Vec<[f64; 3]> = laws.iter().map(short).collect();
+        self.add_to(&mut next, laws.iter().zip(short));
         // Before there is another as large.
         self.last = None;
-        let matrix = Factored::new(self.matrix(&laws, springs.softness));
-        let solution = matrix.solve(&self.right_side(&laws, &next, springs));
-        self.last = Some(matrix);
-        if !solution.iter().all(|x| x.is_finite()) {
-            return None;
+        if self.rigid.is_none()
+            && springs.softness == 0.0
+            && let Some(next) = self.by_displacements(&laws, &next, springs)
+        {
+            return Some(next);
         }
+        let matrix = Factored::new(self.matrix(&laws, springs.softness));
+        let right = self.right_side(&laws, &next, springs);
+        let solution = match matrix.is_singular() {
+            true => condition::least_solution(&self.matrix(&laws, springs.softness), &right),
+            false => Some(matrix.solve(&right)),
+        };
+        self.last = Some(System::Force(matrix));
+        let solution = solution.filter(|found| found.iter().all(|x| x.is_finite()))?;
         self.add(&mut next, &laws, &solution);
         Some(next)
     }
 
-    /// Adds scaled reactions to a contact's.
-    pub(super) fn add_to(&self, point: &mut Point, law: &Law, change: [f64; 3]) {
-        for (unknown, scaled) in law.block.clone().zip(change) {
-            self.push(point, unknown, self.roots[unknown] * scaled);
+    /// The step by (D18); `None` where that would not pay, or does not solve it.
+    fn by_displacements(
+        &mut self,
+        laws: &[Law],
+        from: &Point,
+        springs: Springs<'_>,
+    ) -> Option<Point> {
+        let system = DisplacementMethod::new(laws, self.scaled())?;
+        let mut at = from.clone();
+        let mut right = self.right_side(laws, &at, springs);
+        let first = right.norm_l2();
+        let mut left = first;
+        for _ in 0..ROUNDS {
+            if left <= SOLVED * first {
+                break;
+            }
+            let mut next = at.clone();
+            self.add(&mut next, laws, &system.solve(self.scaled(), &right));
+            right = self.right_side(laws, &next, springs);
+            let now = right.norm_l2();
+            if now.is_nan() || now > LEFT * left {
+                break;
+            }
+            (at, left) = (next, now);
         }
+        let enough = (ENOUGH[0] * first).max(ENOUGH[1] * self.size(&at.reaction));
+        self.last = Some(System::Displacement(system));
+        (left <= enough).then_some(at)
+    }
+
+    /// The problem and √ρ.
+    fn scaled(&self) -> (&'a ContactProblem, &[f64]) {
+        (self.problem, &self.roots)
+    }
+
+    /// Adds scaled reactions to those of contacts.
+    pub(super) fn add_to<'l>(
+        &self,
+        point: &mut Point,
+        changes: impl Iterator<Item = (&'l Law, [f64; 3])>,
+    ) {
+        let changes = changes.flat_map(|(law, change)| law.block.clone().zip(change));
+        self.push(
+            point,
+            changes.map(|(at, scaled)| (at, self.roots[at] * scaled)),
+        );
     }
 
     /// Adds scaled reactions, so much along each direction in which they are free, and a drift behind them.
     pub(super) fn add(&self, point: &mut Point, laws: &[Law], solution: &Col<f64>) {
-        for (unknown, scaled) in laws::spread(laws, solution.iter().copied()) {
-            self.push(point, unknown, self.roots[unknown] * scaled);
-        }
+        let changes = laws::spread(laws, solution.iter().copied());
+        self.push(
+            point,
+            changes.map(|(at, scaled)| (at, self.roots[at] * scaled)),
+        );
         if let Some(rigid) = &self.rigid {
             let drift = solution.iter().skip(laws::free(laws));
             for (k, along) in drift.enumerate() {
@@ -267,24 +348,19 @@ impl<'a> Finish<'a> {
     fn opened(&self, from: &Point, laws: &[Law]) -> Point {
         let mut next = from.clone();
         let mut pressed = laws.iter().map(|law| law.contact).peekable();
-        for contact in 0..self.problem.contacts() {
-            if pressed.next_if_eq(&contact).is_none() {
-                for unknown in self.problem.block(contact) {
-                    self.push(&mut next, unknown, -from.reaction[unknown]);
-                    next.reaction[unknown] = 0.0;
-                }
-            }
-        }
+        let opened = (0..self.problem.contacts()).filter(|at| pressed.next_if_eq(at).is_none());
+        let opened = opened.flat_map(|contact| self.problem.block(contact));
+        self.push(&mut next, opened.map(|at| (at, -from.reaction[at])));
         next
     }
 
-    /// Adds to the reaction at an unknown.
-    fn push(&self, point: &mut Point, unknown: usize, by: f64) {
-        if by != 0.0 {
+    /// Adds to reactions, per unknown in newton.
+    fn push(&self, point: &mut Point, changes: impl Iterator<Item = (usize, f64)>) {
+        let changes: Vec<(usize, f64)> = changes.filter(|(_, by)| *by != 0.0).collect();
+        for &(unknown, by) in &changes {
             point.reaction[unknown] += by;
-            let column = self.problem.compliance().col_as_slice(unknown);
-            add(&mut point.beyond, by, column);
         }
+        add_columns(&mut point.beyond, self.problem.compliance(), &changes);
     }
 
     /// Matrix of (D4) with (D5): reactions of contacts that are not open, as far as they are free, then rigid motions.

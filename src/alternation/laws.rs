@@ -16,6 +16,8 @@ use crate::problem::{ContactProblem, Limits};
 /// A diagonal entry of G below this part of the largest is round-off.
 const NOTHING: f64 = f64::EPSILON;
 
+pub(super) const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
 /// A contact's reaction and its displacement beyond what is free, normal first.
 #[derive(Clone, Copy)]
 pub(super) struct Local {
@@ -216,18 +218,17 @@ impl Local {
     }
 
     fn law_of(&self, state: State, contact: usize, block: Range<usize>) -> Option<Law> {
-        let units = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
         let mut law = Law {
             contact,
             free: block.len(),
             block,
-            directions: units,
+            directions: UNITS,
             on_reaction: [[0.0; 3]; 3],
-            on_displacement: units,
+            on_displacement: UNITS,
             bound: None,
         };
         if !state.closed {
-            (law.on_reaction[0], law.on_displacement[0]) = (units[0], [0.0; 3]);
+            (law.on_reaction[0], law.on_displacement[0]) = (UNITS[0], [0.0; 3]);
         }
         match state.tangents {
             Tangents::Free => return None,
@@ -266,16 +267,40 @@ impl Law {
         local
     }
 
-    /// Directions in which its reaction is free.
-    fn directions(&self) -> &[[f64; 3]] {
+    /// Directions in which its reaction is free; at right angles.
+    pub(super) fn directions(&self) -> &[[f64; 3]] {
         &self.directions[..self.free]
+    }
+
+    /// Whether its contact does not move, whatever it carries.
+    pub(super) fn sticks(&self) -> bool {
+        self.on_reaction == [[0.0; 3]; 3] && self.on_displacement == UNITS && self.bound.is_none()
+    }
+
+    /// Its rows, on reactions and on displacements.
+    pub(super) fn pairs(&self) -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+        let rows = self.on_reaction.iter().zip(&self.on_displacement);
+        rows.take(self.free)
+            .map(|(force, motion)| (*force, *motion))
+    }
+
+    /// What changes of its reaction are at right angles to.
+    pub(super) fn tie(&self) -> Option<[f64; 3]> {
+        let bound = self.bound?;
+        Some([bound.slope, bound.direction[0], bound.direction[1]])
+    }
+
+    /// How much of a change of its reaction is along each direction in which it is free.
+    pub(super) fn amounts(&self, change: [f64; 3]) -> impl Iterator<Item = f64> {
+        let along =
+            move |direction: &[f64; 3]| dot(*direction, change) / dot(*direction, *direction);
+        self.directions().iter().map(along)
     }
 
     /// Its rows for what moves it by so much, and changes its reaction.
     fn rows(&self, moved: [f64; 3], reaction: [f64; 3]) -> impl Iterator<Item = f64> {
-        let rows = self.on_reaction.iter().zip(&self.on_displacement);
-        rows.take(self.free)
-            .map(move |(force, motion)| dot(*force, reaction) + dot(*motion, moved))
+        self.pairs()
+            .map(move |(force, motion)| dot(force, reaction) + dot(motion, moved))
     }
 
     /// By what its reaction misses its bound along the slip (D17).
@@ -354,36 +379,60 @@ pub(super) fn matrix(
 ) -> Mat<f64> {
     let size = free(laws) + more;
     let mut matrix = Mat::zeros(size, size);
+    let unknowns = each_direction(laws);
+    let columns = matrix.as_mut().par_col_iter_mut().zip(&unknowns);
+    columns.for_each(|(column, &unknown)| {
+        let entries = column_of(laws, (problem, roots), (part, softness), unknown);
+        column
+            .iter_mut()
+            .zip(entries)
+            .for_each(|(entry, value)| *entry = value);
+    });
+    matrix
+}
+
+/// Largest column sum of the matrix of all laws.
+pub(super) fn largest_sum(laws: &[Law], scaled: (&ContactProblem, &[f64])) -> f64 {
+    let unknowns = each_direction(laws);
+    let sums = unknowns.par_iter().map(|&unknown| {
+        let column = column_of(laws, scaled, (1.0, 0.0), unknown);
+        column.map(f64::abs).sum::<f64>()
+    });
+    sums.reduce(|| 0.0, f64::max)
+}
+
+/// The law and the direction of every unknown.
+fn each_direction(laws: &[Law]) -> Vec<(&Law, [f64; 3])> {
     let directions = laws.iter().flat_map(|law| {
         let each = law.directions().iter();
         each.map(move |direction| (law, *direction))
     });
-    let directions: Vec<(&Law, [f64; 3])> = directions.collect();
-    let columns = matrix.as_mut().par_col_iter_mut().zip(&directions);
-    columns.for_each(|(mut column, &(own, direction))| {
-        let mut moved = vec![0.0; roots.len()];
-        for (at, along) in own.block.clone().zip(direction) {
-            if along != 0.0 {
-                let force = part * roots[at] * along;
-                let moved = moved.iter_mut().zip(problem.compliance().col_as_slice(at));
-                moved.for_each(|(sum, entry)| *sum += force * entry);
-            }
+    directions.collect()
+}
+
+/// What a reaction along one direction does to the rows of all laws.
+fn column_of<'a>(
+    laws: &'a [Law],
+    (problem, roots): (&'a ContactProblem, &'a [f64]),
+    (part, softness): (f64, f64),
+    (own, direction): (&'a Law, [f64; 3]),
+) -> impl Iterator<Item = f64> + 'a {
+    let mut moved = vec![0.0; roots.len()];
+    for (at, along) in own.block.clone().zip(direction) {
+        if along != 0.0 {
+            let force = part * roots[at] * along;
+            let moved = moved.iter_mut().zip(problem.compliance().col_as_slice(at));
+            moved.for_each(|(sum, entry)| *sum += force * entry);
         }
-        let moved = |at: usize| roots[at] * moved[at];
-        let mut row = 0;
-        for law in laws {
-            let (mut moved, mut reaction) = (law.local(moved), [0.0; 3]);
-            if law.contact == own.contact {
-                reaction = direction;
-                (0..3).for_each(|k| moved[k] += softness * direction[k]);
-            }
-            for entry in law.rows(moved, reaction) {
-                column[row] = entry;
-                row += 1;
-            }
+    }
+    laws.iter().flat_map(move |law| {
+        let (mut moved, mut reaction) = (law.local(|at| roots[at] * moved[at]), [0.0; 3]);
+        if law.contact == own.contact {
+            reaction = direction;
+            (0..3).for_each(|k| moved[k] += softness * direction[k]);
         }
-    });
-    matrix
+        law.rows(moved, reaction)
+    })
 }
 
 /// Minus what a state leaves of all rows.
@@ -448,7 +497,7 @@ pub(super) fn roots(problem: &ContactProblem) -> Vec<f64> {
     roots
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 

@@ -28,6 +28,7 @@
 mod anderson;
 mod centred;
 mod condition;
+mod displacement_method;
 mod felt;
 mod finish;
 mod float;

@@ -257,10 +257,9 @@ impl<'a> Linearised<'a> {
 
     fn answer(&self, system: &System, drive: &Drive) -> Option<Point> {
         let mut at = self.held(drive);
-        for law in &system.laws {
-            let change = law.shrinks(self.friction(law.contact, drive));
-            self.finish.add_to(&mut at, law, change);
-        }
+        let shrinks = |law: &Law| law.shrinks(self.friction(law.contact, drive));
+        let changes = system.laws.iter().map(|law| (law, shrinks(law)));
+        self.finish.add_to(&mut at, changes);
         let asked = laws::missing(&system.laws, |contact| {
             local(&self.finish, contact, &at.reaction, &at.beyond)
         });

@@ -33,4 +33,4 @@ pub use floating::Floating;
 pub(crate) use law::Limits;
 pub use law::{Ellipse, Law};
 pub use operator::Operator;
-pub(crate) use operator::inverse_of_product;
+pub(crate) use operator::{RoundedStiffness, inverse_of_product};

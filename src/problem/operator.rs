@@ -7,6 +7,8 @@
 use std::ops::Range;
 use std::sync::OnceLock;
 
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt;
 use faer::linalg::matmul::matmul;
 use faer::linalg::matmul::triangular::{self, BlockStructure};
 use faer::linalg::solvers::Llt;
@@ -14,6 +16,7 @@ use faer::linalg::triangular_inverse::invert_lower_triangular;
 use faer::traits::ComplexField;
 use faer::traits::math_utils::one;
 use faer::{Accum, ColMut, ColRef, Mat, MatRef, Par, Side, get_global_parallelism};
+use rayon::prelude::*;
 
 use super::Compliance;
 use crate::error::{Error, check_finite};
@@ -24,6 +27,9 @@ const SYMMETRY: f64 = 1e-10;
 /// Most negative eigenvalue accepted, relative to the trace of G: what entries rounded to seven
 /// digits, as published ones are, can make of a semi-definite G.
 const DEFINITE: f64 = 1e-7;
+
+/// Rows of a product that a thread takes at a time.
+const ROWS: usize = 512;
 
 /// A pivot below this part of its diagonal entry makes G numerically singular.
 const PIVOT: f64 = 1e-10;
@@ -41,6 +47,43 @@ pub struct Operator {
     /// `L_cc` of (C2), from which S comes with the digits that G has lost where bodies are slender.
     factor: Option<Mat<f64>>,
     stiffness: OnceLock<Option<Mat<f64>>>,
+    rounded_stiffness: OnceLock<Option<RoundedStiffness>>,
+}
+
+/// S in single precision: for corrections of what G itself says.
+#[derive(Clone, Debug)]
+pub(crate) struct RoundedStiffness {
+    /// Inverse of `D⁻¹ G D⁻¹`, whose diagonal is one; both triangles.
+    of_scaled: Mat<f32>,
+    /// D: roots of the diagonal of G.
+    scale: Vec<f64>,
+}
+
+impl RoundedStiffness {
+    /// Entry of S, in N/m.
+    pub(crate) fn entry(&self, row: usize, column: usize) -> f64 {
+        f64::from(self.of_scaled[(row, column)]) / (self.scale[row] * self.scale[column])
+    }
+
+    /// Adds S w to a force, in newton, for a w in metre of some unknowns. Rows are divided among threads, each of which is
+    /// summed up in the order of the unknowns.
+    pub(crate) fn add_product(&self, force: &mut [f64], moved: &[(usize, f64)]) {
+        let moved = moved.iter().map(|&(at, w)| (at, w / self.scale[at]));
+        let moved: Vec<(usize, f64)> = moved.collect();
+        let chunks = force.par_chunks_mut(ROWS).enumerate();
+        chunks.for_each(|(chunk, force)| {
+            let first = chunk * ROWS;
+            let mut scaled = vec![0.0; force.len()];
+            for &(column, w) in &moved {
+                let entries = &self.of_scaled.col_as_slice(column)[first..];
+                let pairs = scaled.iter_mut().zip(entries);
+                pairs.for_each(|(sum, entry)| *sum += w * f64::from(*entry));
+            }
+            let scale = &self.scale[first..];
+            let pairs = force.iter_mut().zip(scaled.iter().zip(scale));
+            pairs.for_each(|(force, (sum, scale))| *force += sum / scale);
+        });
+    }
 }
 
 impl Operator {
@@ -143,6 +186,7 @@ impl Operator {
             compliance,
             factor,
             stiffness: OnceLock::new(),
+            rounded_stiffness: OnceLock::new(),
         }
     }
 
@@ -167,6 +211,34 @@ impl Operator {
         self.stiffness
             .get_or_init(|| self.form_stiffness())
             .as_ref()
+    }
+
+    /// S in single precision; none where that does not invert G.
+    pub(crate) fn rounded_stiffness(&self) -> Option<&RoundedStiffness> {
+        let form = || self.form_rounded_stiffness();
+        self.rounded_stiffness.get_or_init(form).as_ref()
+    }
+
+    fn form_rounded_stiffness(&self) -> Option<RoundedStiffness> {
+        let (size, g) = (self.size(), &self.compliance);
+        let scale: Vec<f64> = (0..size).map(|i| g[(i, i)].sqrt()).collect();
+        let entry = |i: usize, j: usize| (g[(i, j)] / (scale[i] * scale[j])) as f32;
+        let mut lower = Mat::from_fn(size, size, |i, j| if i >= j { entry(i, j) } else { 0.0 });
+        let room = llt::factor::cholesky_in_place_scratch::<f32>(
+            size,
+            get_global_parallelism(),
+            Default::default(),
+        );
+        let factored = llt::factor::cholesky_in_place(
+            lower.as_mut(),
+            Default::default(),
+            get_global_parallelism(),
+            MemStack::new(&mut MemBuffer::new(room)),
+            Default::default(),
+        );
+        factored.ok()?;
+        let of_scaled = inverse_of_product(lower);
+        Some(RoundedStiffness { of_scaled, scale })
     }
 
     fn form_stiffness(&self) -> Option<Mat<f64>> {
@@ -318,6 +390,23 @@ mod tests {
         assert!((product - Mat::<f64>::identity(3, 3)).norm_max() < 1e-14);
         // S = L Lᵀ: row 2 of L is (1, 3, 0), so S_11 = 10.
         assert!((operator.stiffness().unwrap()[(1, 1)] - 10.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn in_single_precision_the_stiffness_has_seven_digits_whatever_the_units() {
+        // S = [[1, −1], [−1, 2]] of G = [[2, 1], [1, 1]], in units of 1e-12 m/N and 1e-6 as much per root.
+        let [a, b] = [1e-6, 1e-9];
+        let g = mat![[2.0 * a * a, a * b], [a * b, b * b]];
+        let operator = Operator::from_compliance(g).unwrap();
+        let stiffness = operator.rounded_stiffness().unwrap();
+        let mut force = vec![0.0; 2];
+        stiffness.add_product(&mut force, &[(0, 3.0 * a), (1, b)]);
+        for (found, expected) in force.iter().zip([2.0 / a, -1.0 / b]) {
+            assert!((found / expected - 1.0).abs() < 1e-6, "{force:?}");
+        }
+        assert!((stiffness.entry(1, 1) * b * b - 2.0).abs() < 1e-6);
+        let singular = Operator::from_compliance(mat![[1.0, 1.0], [1.0, 1.0]]).unwrap();
+        assert!(singular.rounded_stiffness().is_none());
     }
 
     #[test]
