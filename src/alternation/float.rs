@@ -50,10 +50,6 @@ impl Run<'_> {
 
     /// (H8) with the equilibrium of the bodies that float.
     pub(super) fn coulomb_program(&mut self, floating: &Floating) {
-        // Other laws are no such cones; the proximal loop finds its way from rest.
-        if self.problem.laws().is_some() {
-            return;
-        }
         let start = Instant::now();
         let none = vec![0.0; self.problem.contacts()];
         let program = CoulombProgram::new(self.problem, floating.modes());

@@ -9,7 +9,7 @@
 //! Where the shift `s` is the slip `‖u_T‖` of the minimiser itself, (L1)–(L3) hold: the fixed point
 //! of Acary, Cadoux, Lemaréchal and Malick (Z. Angew. Math. Mech. 91 (2011) 155–175). With `s = 0` a sliding
 //! contact opens as it slides; its reaction is a start that is admissible and in equilibrium.
-//! The multipliers of the equilibrium rows are the rigid motion α.
+//! The multipliers of the equilibrium rows are the rigid motion α. Laws beyond Coulomb's have their own sets (H9).
 
 use faer::MatRef;
 
@@ -53,7 +53,7 @@ impl<'a> CoulombProgram<'a> {
         let basis = VelocityBasis::new(modes)?;
         let scale = scales(problem);
         let unit = norm(scale.iter().copied()) / (scale.len().max(1) as f64).sqrt();
-        let generators = Generators::new(problem.offsets(), problem.friction(), &scale);
+        let generators = Generators::new(problem, &scale);
         let form = generators.form(problem.compliance().as_ref());
         let rank = basis.rank();
         let mut rows = vec![Vec::new(); rank];
@@ -66,7 +66,9 @@ impl<'a> CoulombProgram<'a> {
             for (row, images) in rows.iter().enumerate() {
                 columns.push(row, images[z] / unit);
             }
-            columns.push(rank + z, -1.0);
+            for (row, entry) in generators.rows(z) {
+                columns.push(rank + row, *entry);
+            }
             columns.end_column();
         }
         let cones = ConeSizes {
@@ -113,7 +115,8 @@ impl<'a> CoulombProgram<'a> {
         let largest = entries.fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let sigma = if largest > 0.0 { largest } else { 1.0 };
         q.iter_mut().chain(&mut b).for_each(|x| *x /= sigma);
-        b.resize(b.len() + self.generators.size(), 0.0);
+        let right = self.generators.right().iter();
+        b.extend(right.map(|bound| (bound / sigma).min(UNBOUNDED)));
 
         let solution = self.program.solve(&q, &b, tolerance)?;
         let z: Vec<f64> = solution.x.iter().map(|z| z * sigma).collect();
@@ -139,11 +142,11 @@ impl<'a> CoulombProgram<'a> {
 
     /// The nearest generators in their cones: the solver leaves them by its tolerance.
     fn inside(&self, mut z: Vec<f64>) -> Vec<f64> {
-        let (rays, discs) = z.split_at_mut(self.generators.cones().nonnegative);
+        let (rays, solid) = z.split_at_mut(self.generators.cones().nonnegative);
         for ray in rays {
             *ray = ray.max(0.0);
         }
-        for disc in discs.chunks_exact_mut(3) {
+        for disc in solid[..self.generators.solid()].chunks_exact_mut(3) {
             let size = disc[1].hypot(disc[2]);
             disc[0] = disc[0].max(0.0);
             if size > disc[0] {
@@ -175,6 +178,9 @@ fn scales(problem: &ContactProblem) -> Vec<f64> {
     };
     own.iter().map(|g| g.max(floor).sqrt().recip()).collect()
 }
+
+/// A bound of so many times what acts bounds nothing.
+const UNBOUNDED: f64 = 1e4;
 
 /// A compliance below this part of the largest does not scale its contact.
 const SMALLEST: f64 = 1e-6;

@@ -1,4 +1,4 @@
-//! Coulomb's cones as images of the cones that a cone program knows.
+//! Sets of reactions as images of the cones that a cone program knows.
 //!
 //! ```text
 //! (H3)  K_i = { t_N ≤ 0, ‖t_T‖ ≤ −μ_i t_N } = T_i (cone of z_i)        v ∈ K_i* ⇔ T_iᵀ v ∈ cone of z_i
@@ -7,6 +7,9 @@
 //! none       z ≥ 0              t_N = −c z
 //! one        z₊, z₋ ≥ 0         t_N = −c (z₊ + z₋),   t_T = −c μ (z₊ − z₋)
 //! two        z_0 ≥ ‖(z_1, z_2)‖ t_N = −c z_0,         t_T = c μ (z_1, z_2)
+//!
+//! (H9)  of (L5): K_i and a disc,  t_T = … + c y,  ‖c y‖ ≤ a;   a cap,  ‖t_T‖ ≤ τ;   t_N of either sign,  … + c w,  w ≥ 0;
+//!       t_T without a bound where it sticks
 //! ```
 //!
 //! The scale `c_i > 0` is free. A contact with tangents but μ = 0 counts as one without.
@@ -15,50 +18,102 @@
 use faer::{Mat, MatRef};
 
 use super::clarabel::ConeSizes;
+use crate::problem::{ContactProblem, Limits};
 
-/// The map T over all contacts, its `z` ordered as a cone program wants its rows.
+/// The map T over all contacts, with what bounds its `z`: `rows z + s = right`, s in the cones.
 #[derive(Clone, Debug)]
 pub(super) struct Generators {
     rays: Vec<Ray>,
     cones: ConeSizes,
+    /// Entries per column, as they are pushed.
+    rows: Vec<Vec<(usize, f64)>>,
+    right: Vec<f64>,
+    solid: usize,
 }
 
 /// A column of T: at most two entries, `(unknown of t, factor)`; one alone is padded with zero.
 type Ray = [(usize, f64); 2];
 
+/// `‖t_T‖` of a contact is bounded, by rays of its own or by all that it has.
+struct Disc {
+    rays: Vec<usize>,
+    /// Per ray, the entry of `t_T` and its factor.
+    entries: Vec<(usize, f64)>,
+    tangents: usize,
+    radius: f64,
+}
+
 impl Generators {
-    /// For blocks that begin at `offsets` (their end appended), with μ and `c` per contact.
-    pub(super) fn new(offsets: &[usize], friction: &[f64], scale: &[f64]) -> Self {
+    /// Of the contacts of a problem, without tension and ellipses, with `c` per contact.
+    pub(super) fn new(problem: &ContactProblem, scale: &[f64]) -> Self {
         let (mut rays, mut solid) = (Vec::new(), Vec::new());
-        let mut second_order = Vec::new();
-        for (contact, block) in offsets.windows(2).enumerate() {
-            let (c, bound) = (scale[contact], scale[contact] * friction[contact]);
-            let normal = block[0];
-            match block[1] - normal - 1 {
-                1 if bound > 0.0 => {
+        for (block, (contact, c)) in problem.blocks().zip(scale.iter().enumerate()) {
+            let limits = problem.limits(contact);
+            let (normal, bound) = (block.start, c * limits.friction);
+            match block.len() - 1 {
+                1 if bound > 0.0 && bound.is_finite() => {
                     rays.push([(normal, -c), (normal + 1, -bound)]);
                     rays.push([(normal, -c), (normal + 1, bound)]);
                 }
-                2 if bound > 0.0 => {
+                2 if bound > 0.0 && bound.is_finite() => {
                     solid.push([(normal, -c), (normal, 0.0)]);
                     solid.extend([1, 2].map(|t| [(normal + t, bound), (normal, 0.0)]));
-                    second_order.push(3);
                 }
                 _ => rays.push([(normal, -c), (normal, 0.0)]),
+            }
+            if limits.bilateral {
+                rays.push([(normal, *c), (normal, 0.0)]);
+            }
+        }
+        let (nonnegative, coned) = (rays.len(), rays.len() + solid.len());
+        let mut second_order = vec![3; solid.len() / 3];
+        rays.append(&mut solid);
+        let mut rows: Vec<_> = (0..coned).map(|z| vec![(z, -1.0)]).collect();
+        let mut right = vec![0.0; coned];
+        if problem.laws().is_some() {
+            let discs = discs(problem, scale, &mut rays);
+            rows.resize(rays.len(), Vec::new());
+            for disc in discs {
+                let first = right.len();
+                let own = disc.rays.iter().zip(&disc.entries);
+                own.for_each(|(&z, (axis, factor))| rows[z].push((first + 1 + axis, -factor)));
+                right.push(disc.radius);
+                right.resize(first + 1 + disc.tangents, 0.0);
+                second_order.push(1 + disc.tangents);
             }
         }
         let cones = ConeSizes {
             zero: 0,
-            nonnegative: rays.len(),
+            nonnegative,
             second_order,
         };
-        rays.append(&mut solid);
-        Self { rays, cones }
+        Self {
+            rays,
+            cones,
+            rows,
+            right,
+            solid: coned - nonnegative,
+        }
+    }
+
+    /// Entries of a column of what bounds z, in ascending rows.
+    pub(super) fn rows(&self, column: usize) -> &[(usize, f64)] {
+        &self.rows[column]
+    }
+
+    /// The right side of what bounds z.
+    pub(super) fn right(&self) -> &[f64] {
+        &self.right
     }
 
     /// Number of entries of `z`.
     pub(super) fn size(&self) -> usize {
         self.rays.len()
+    }
+
+    /// Number of entries of `z` that stand in second-order cones of their own, behind those that are not negative.
+    pub(super) fn solid(&self) -> usize {
+        self.solid
     }
 
     /// The cones of `z`.
@@ -100,17 +155,106 @@ impl Generators {
     }
 }
 
+/// Discs of (H9), with rays that are added for those without pressure and for tangents without a bound.
+fn discs(problem: &ContactProblem, scale: &[f64], rays: &mut Vec<Ray>) -> Vec<Disc> {
+    let of_friction = rays.clone();
+    let (mut own, mut capped) = (Vec::new(), Vec::new());
+    for (block, (contact, &c)) in problem.blocks().zip(scale.iter().enumerate()) {
+        let Limits {
+            friction,
+            shear,
+            cap,
+            ..
+        } = problem.limits(contact);
+        let tangents = block.start + 1..block.end;
+        let first = rays.len();
+        if shear > 0.0 || friction.is_infinite() {
+            rays.extend(tangents.clone().map(|t| [(t, c), (t, 0.0)]));
+        }
+        let added = (first..rays.len()).enumerate();
+        let added: Vec<(usize, (usize, f64))> =
+            added.map(|(axis, ray)| (ray, (axis, 1.0))).collect();
+        let disc = |of: &mut Vec<Disc>, of_rays: Vec<(usize, (usize, f64))>, radius: f64| {
+            if radius.is_finite() && !of_rays.is_empty() {
+                let (rays, entries) = of_rays.into_iter().unzip();
+                let (tangents, radius) = (tangents.len(), radius / c);
+                of.push(Disc {
+                    rays,
+                    entries,
+                    tangents,
+                    radius,
+                });
+            }
+        };
+        if cap.is_finite() {
+            let under = of_friction.iter().enumerate().flat_map(|(ray, entries)| {
+                let tangents = tangents.clone();
+                let bounded = entries
+                    .iter()
+                    .filter(move |(at, factor)| tangents.contains(at) && *factor != 0.0);
+                let start = block.start + 1;
+                bounded.map(move |(at, factor)| (ray, (at - start, factor / c)))
+            });
+            disc(&mut capped, under.chain(added.clone()).collect(), cap);
+        }
+        if friction.is_finite() {
+            disc(&mut own, added, shear);
+        }
+    }
+    own.append(&mut capped);
+    own
+}
+
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::problem::{Law, Operator};
 
     /// A 3D contact, a frictionless one with an idle tangent, a plane one, a bare one.
     fn generators() -> Generators {
-        Generators::new(
-            &[0, 3, 5, 7, 8],
-            &[0.5, 0.0, 0.25, 0.7],
-            &[2.0, 1.0, 4.0, 1.0],
+        Generators::new(&problem(), &[2.0, 1.0, 4.0, 1.0])
+    }
+
+    fn problem() -> ContactProblem {
+        let operator = Operator::from_compliance(Mat::identity(8, 8)).unwrap();
+        let friction = vec![0.5, 0.0, 0.25, 0.7];
+        ContactProblem::new(
+            &[2, 1, 1, 0],
+            friction,
+            vec![0.0; 4],
+            vec![0.0; 8],
+            operator,
         )
+        .unwrap()
+    }
+
+    #[test]
+    fn a_law_s_set_is_a_cone_a_disc_and_a_cap() {
+        // The first bears 3 N more than its friction and 4 N at most, the third sticks and holds on.
+        let mut laws = vec![Law::default(); 4];
+        (laws[0].shear, laws[0].cap) = (3.0, 4.0);
+        (laws[2].bilateral, laws[2].sticks) = (true, true);
+        let found = Generators::new(&problem().with_laws(laws).unwrap(), &[2.0; 4]);
+        // Rows: 0 the second, 1–2 the third, 3 the fourth, 4–6 friction, then the disc and the cap of the first.
+        let cones = found.cones();
+        assert_eq!(
+            (cones.nonnegative, &cones.second_order[..]),
+            (4, &[3, 3, 3][..])
+        );
+        assert_eq!(found.right()[7..], [1.5, 0.0, 0.0, 2.0, 0.0, 0.0]);
+        // Friction −0.5·2·(3, −4) by its cone, and 2·(0.5, 0) by its disc.
+        let z = [0.0, 0.0, 3.0, 0.0, 5.0, 3.0, -4.0, 0.5, 0.0, 7.0];
+        let t = found.reaction(&z, 8);
+        assert_eq!(t, [-10.0, 4.0, -4.0, 0.0, 0.0, 6.0, 14.0, 0.0]);
+        // s of the cap is t_T by c.
+        let s = |row: usize| -> f64 {
+            let columns = (0..z.len()).flat_map(|k| found.rows(k).iter().map(move |e| (k, e)));
+            let own = columns.filter(|(_, (at, _))| *at == row);
+            found.right()[row] - own.map(|(k, (_, a))| a * z[k]).sum::<f64>()
+        };
+        assert_eq!([10, 11, 12].map(s), [2.0, 2.0, -2.0]);
+        assert_eq!([7, 8, 9].map(s), [1.5, 0.5, 0.0]);
     }
 
     #[test]

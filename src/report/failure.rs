@@ -20,6 +20,8 @@ pub struct ReportedFailure {
     pub sliding: Vec<usize>,
     /// Contacts that open, as indices into `contacts`.
     pub opening: Vec<usize>,
+    /// Rigid bodies would be held: these give way as they deform.
+    pub elastic: bool,
     /// Work of the loads on the motion that proves it, in newton times its unit.
     pub work: f64,
     /// Largest velocity by which a contact resists that motion, in the same unit.
@@ -27,6 +29,14 @@ pub struct ReportedFailure {
 }
 
 impl ReportedFailure {
+    /// What a report without an equilibrium says first.
+    pub(super) const fn heading(failure: Option<&Self>) -> &'static str {
+        match failure {
+            Some(Self { elastic: true, .. }) => "the bodies give way as they deform",
+            _ => "no admissible contact forces hold the bodies",
+        }
+    }
+
     /// None where an equilibrium exists.
     pub(super) fn new(parts: &ReportParts<'_>) -> Option<Self> {
         let failure = parts.outcome.failure.as_ref()?;
@@ -45,6 +55,7 @@ impl ReportedFailure {
             motions,
             sliding: failure.sliding.clone(),
             opening: failure.opening.clone(),
+            elastic: failure.elastic,
             work: failure.proof.work,
             resistance: failure.proof.resistance,
         })

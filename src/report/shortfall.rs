@@ -87,16 +87,22 @@ impl ReportedShortfall {
 
 /// What could hold bodies that move off: friction only where something slides.
 fn held(outcome: &Outcome) -> String {
-    let slides =
-        |failure: &alternation::Failure| !failure.sliding.is_empty() || failure.opening.is_empty();
-    match outcome.failure.as_ref().is_some_and(slides) {
+    let failure = outcome.failure.as_ref();
+    let slides = failure.is_some_and(|of| !of.sliding.is_empty() || of.opening.is_empty());
+    let advice = match slides {
         true => "hold the motion by a support, or by more friction: `dpana limit` says how much",
         false => {
             "hold the motion by a support, or press the bodies together: contacts that only open are \
              held by no friction"
         }
+    };
+    match failure.is_some_and(|failure| failure.elastic) {
+        true => format!(
+            "{advice}; or bring the loads on one after the other, by `steps`: rigid bodies would be held, \
+             and what friction holds of elastic ones depends on the way"
+        ),
+        false => advice.to_owned(),
     }
-    .to_owned()
 }
 
 /// What to do where sweeps lead nowhere: less friction only helps where there is any.

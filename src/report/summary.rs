@@ -40,7 +40,8 @@ fn heading(text: &mut String, report: &Report) -> std::fmt::Result {
         ReportedStatus::Certified => "certified",
         ReportedStatus::NotConverged => "NOT CONVERGED: the best state found, it is not certified",
         ReportedStatus::NoEquilibrium => {
-            "NO EQUILIBRIUM: no admissible contact forces hold the bodies"
+            let why = ReportedFailure::heading(report.failure.as_ref());
+            &format!("NO EQUILIBRIUM: {why}")
         }
         ReportedStatus::CouplingFault => {
             "COUPLING FAULT: the bodies are not in the state reported below"

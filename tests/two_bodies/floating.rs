@@ -1,9 +1,13 @@
 //! Bodies that supports do not hold, or not in full: contact carries what statics demands, or the
 //! motion that nothing stops is named.
 
+use dpana::body::{CellKind, box_mesh, rectangle};
 use dpana::report::{Report, ReportedStatus};
+use dpana::scene::{SceneBody, SceneContact, SceneLoad, SceneObstacle};
 use dpana::{Scene, Solution, solve};
 use serde_json::{Value, json};
+
+use crate::stacks::{self, body, contact, hold};
 
 fn solved(scene: &Value) -> (Solution, Report) {
     let solution = solve(&Scene::from_json(&scene.to_string(), "floating.json").unwrap()).unwrap();
@@ -389,4 +393,110 @@ fn variants_for_study_need_held_bodies() {
     let found = dpana::study::Variant::PLAIN.solve(problem, &dpana::Settings::default());
     let said = found.unwrap_err().to_string();
     assert!(said.contains("variant: Sweeps"), "{said}");
+}
+
+/// A voussoir of two cells, from one joint up to the other: two nodes for each layer.
+fn voussoir(name: &str, nodes: [[f64; 2]; 6], young: f64) -> SceneBody {
+    let mut mesh = rectangle(&[0.0, 1.0], &[0.0, 0.5, 1.0], CellKind::Quad4).unwrap();
+    for (node, [x, y]) in mesh.nodes.iter_mut().zip(nodes) {
+        *node = [x, y, 0.0];
+    }
+    let mut body = body(name, mesh, young, 0.2);
+    body.loads.push(SceneLoad::BodyForce {
+        body_force: vec![0.0, -1.0],
+        group: None,
+    });
+    body
+}
+
+#[test]
+fn an_arch_that_elastic_bodies_hold_is_not_refuted() {
+    // Two voussoirs between slopes, μ = 0.7, under their weight and a push from aside. From rest Newton steps run off to
+    // a motion that friction does not stop. N by an elimination of all states of the six contacts (mixed integer
+    // programming on a finite element program of its own).
+    let (cos, sin) = (0.777_409_653_591, 0.628_994_618_819);
+    let left = [
+        [cos, sin],
+        [0.956_478_771_513, 0.773_877_707_227],
+        [0.418_622_789_686, 0.813_601_422_292],
+        [0.515_048_674_476, 1.001_006_979_141],
+        [0.059_835_925_782, 0.998_208_225_765],
+        [0.073_618_577_439, 1.228_136_251_055],
+    ];
+    let right = [
+        [0.059_835_925_782, 0.998_208_225_765],
+        [0.073_618_577_439, 1.228_136_251_055],
+        [-0.358_786_863_904, 0.813_601_422_292],
+        [-0.441_430_097_037, 1.001_006_979_141],
+        [-cos, sin],
+        [-0.956_478_771_513, 0.773_877_707_227],
+    ];
+    let mut pushed = voussoir("v0", left, 141.875_824_147_128);
+    pushed.loads.push(SceneLoad::Traction {
+        traction: vec![0.457_408_705_216, 0.0],
+        group: "right".into(),
+    });
+    let slope = |sign: f64| SceneObstacle::plane(&[sign * cos, sin], &[-sign * sin, cos]);
+    let contacts = vec![
+        SceneContact::on(slope(1.0), "bottom", 0.7).of("v0"),
+        contact(["v0", "top"], ["v1", "bottom"], 0.7),
+        SceneContact::on(slope(-1.0), "top", 0.7).of("v1"),
+    ];
+    let bodies = vec![pushed, voussoir("v1", right, 269_081.301_053_165)];
+    let (_, report) = stacks::certified(&Scene::new(bodies, contacts));
+    close(report.totals.normal, 0.770_721_706_694, 1e-9);
+}
+
+#[test]
+fn a_loose_block_is_held_alike_by_laws_that_are_one_where_it_stands() {
+    // 32 N down and 4.8 N along x of the 6.4 N that friction holds; every law bears at least as much.
+    let laws = [
+        json!({"coulomb": {"friction": 0.2}}),
+        json!({"coulomb": {"friction": 0.2, "shear_cap": 1e9}}),
+        json!({"coulomb": {"friction": 0.2, "shear_cap": 3.0}}),
+        json!({"orthotropic": {"friction": [0.2, 0.2], "direction": [1, 0.5, 0]}}),
+        json!({"tresca": {"shear": 1.6}}),
+        json!({"cohesion": {"tension": 0.1, "shear": 0.1, "friction": 0.2}}),
+        json!({"rough": {}}),
+        json!({"bonded": {}}),
+    ];
+    let cube = |name: &str, z: f64, cells: usize| {
+        json!({
+            "name": name, "materials": [{"young": 1000, "poisson": 0.25}],
+            "mesh": {"box": {"x": [0, 2], "y": [0, 2], "z": [z, z + 1.0], "cells": [cells, cells, 1], "cell": "hex8"}}
+        })
+    };
+    for law in laws {
+        let (mut low, mut up) = (cube("low", 0.0, 2), cube("up", 1.0, 3));
+        low["supports"] = json!([{"group": "bottom", "displacement": [0, 0, 0]}]);
+        up["loads"] = json!([
+            {"group": "top", "pressure": 8}, {"group": "top", "traction": [1.2, 0, 0]}
+        ]);
+        let pair = json!({
+            "body": "up", "group": "bottom", "against": {"body": "low", "group": "top"}, "law": law
+        });
+        let report = certified(&json!({"bodies": [low, up], "contacts": [pair]}));
+        close(report.totals.normal, 32.0, RESULTANT);
+        close(report.totals.friction[0].abs(), 4.8, RESULTANT);
+    }
+}
+
+#[test]
+fn a_dome_that_one_contact_holds_is_pressed_without_a_spin() {
+    // Friction at its apex resists no turn about the axis: the least motion has none, and the force is that without
+    // friction.
+    let force = |friction: f64| {
+        let steps = [-1.0, 0.0, 1.0];
+        let mut mesh = box_mesh(&steps, &steps, &[0.0, 0.5, 1.0], CellKind::Hex8).unwrap();
+        for [x, y, z] in &mut mesh.nodes {
+            *z += (1.0 - *z) * 0.05 * (*x * *x + *y * *y);
+        }
+        let dome = hold(body("dome", mesh, 1000.0, 0.3), "top", 2, -0.01);
+        let ground = SceneObstacle::plane(&[0.0; 3], &[0.0, 0.0, 1.0]);
+        let contacts = vec![SceneContact::on(ground, "bottom", friction)];
+        let (_, report) = stacks::certified(&Scene::new(vec![dome], contacts));
+        assert!(report.extremes.displacement.value < 0.02);
+        report.totals.normal
+    };
+    close(force(0.2), force(0.0), 1e-9);
 }

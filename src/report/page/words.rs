@@ -3,7 +3,9 @@
 use serde::Serialize;
 
 use crate::report::digits::{number, size};
-use crate::report::{Report, ReportedDefect, ReportedShortfall, ReportedStatus, ReportedWorst};
+use crate::report::{
+    Report, ReportedDefect, ReportedFailure, ReportedShortfall, ReportedStatus, ReportedWorst,
+};
 
 /// A line of the table of totals.
 #[derive(Debug, Serialize)]
@@ -36,7 +38,8 @@ pub(super) fn status(report: &Report) -> Vec<String> {
             "Not converged: this is the best state found, it is not certified.".to_owned()
         }
         ReportedStatus::NoEquilibrium => {
-            "No equilibrium: no admissible contact forces hold the bodies.".to_owned()
+            let why = ReportedFailure::heading(report.failure.as_ref());
+            format!("No equilibrium: {why}.")
         }
         ReportedStatus::CouplingFault => {
             "Coupling fault: the bodies are not in the state that the contact problem says."
