@@ -81,7 +81,7 @@ fn surface<'a>(
     place: &str,
 ) -> Result<Surface<'a>, Error> {
     let boundary = &scene.boundaries[side.body];
-    let bulges = boundary.bulges(&side.facets, pair.rounded);
+    let bulges = scene.bulges(side.body, &side.facets, pair.rounded);
     let surface = Surface::new(&scene.bodies[side.body].mesh, &side.facets, place)?;
     Ok(surface.with(bulges, boundary.flanks(&side.facets)))
 }
@@ -217,9 +217,12 @@ fn still_directions(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarN
         .collect();
     let oblique = std::iter::once(&corner).chain(&near);
     let oblique = oblique.clone().find(|held| !held.are_axes());
+    let axes: Directions = [true, true, dimension == 3].into();
     let Directions(mut candidates) = match oblique {
         Some(held) => held.clone().led_by(normal),
-        None => [true, true, dimension == 3].into(),
+        // Of a corner that is held along several axes all between them are as good.
+        None if corner.0.len() > 1 => corner.clone().led_by(normal).and_across(axes),
+        None => axes,
     };
     candidates.retain(|direction| {
         let at_corner = corner.hold(direction);

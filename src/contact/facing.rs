@@ -14,6 +14,7 @@ use std::sync::OnceLock;
 use nalgebra::Vector3;
 
 use super::held::Directions;
+use super::mirror::Mirrors;
 use super::rounding::{Bulges, Turns};
 use super::{ContactNode, ContactPair, Obstacle};
 use crate::body::{Body, Dependence, Facet, FacetGeometry, Mesh};
@@ -54,6 +55,17 @@ impl Bodies<'_> {
         Directions::of(prescribed, tied, dimension, node)
     }
 
+    /// How far the smooth surface stands off facets of a boundary; it counts in gaps or not.
+    pub(super) fn bulges(&self, body: usize, facets: &[Facet], rounded: bool) -> Bulges {
+        let (mesh, boundary) = (&self.bodies[body].mesh, &self.boundaries[body]);
+        let turns = boundary.turns.get_or_init(|| {
+            let held = |node| self.held(body, node);
+            let mirrors = Mirrors::new(mesh, &boundary.facets, held);
+            Turns::new(mesh, &boundary.facets, &mirrors)
+        });
+        turns.bulges(mesh, facets, rounded)
+    }
+
     /// By how much supports move a node along a direction, in metre; zero where it is free.
     pub(super) fn given_along(&self, body: usize, node: usize, direction: &Vector3<f64>) -> f64 {
         let dimension = self.bodies[body].mesh.dimension;
@@ -81,13 +93,6 @@ impl<'a> Boundary<'a> {
             index_of,
             turns: OnceLock::new(),
         }
-    }
-
-    /// How far the smooth surface stands off facets of the boundary; it counts in gaps or not.
-    pub(super) fn bulges(&self, facets: &[Facet], rounded: bool) -> Bulges {
-        let mesh = &self.body.mesh;
-        let turns = self.turns.get_or_init(|| Turns::new(mesh, &self.facets));
-        turns.bulges(mesh, facets, rounded)
     }
 
     /// Where some lines of the boundary end, the direction in which the boundary goes on from there, in

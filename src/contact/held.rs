@@ -46,10 +46,11 @@ impl Directions {
         self.0.iter().all(|direction| direction.amax() == 1.0)
     }
 
-    /// The same span, from the part of a vector that is in it on, if they are no axes.
+    /// The same span, from the part of a vector that is in it on, unless one of them is that.
     pub(super) fn led_by(self, vector: Vector3<f64>) -> Self {
         let along = self.along(vector);
-        if self.are_axes() || along.norm() < ROUND_OFF {
+        let (size, mut own) = (along.norm(), self.0.iter());
+        if size < ROUND_OFF || own.any(|own| own.dot(&along).abs() == size) {
             return self;
         }
         let mut basis = vec![along.normalize()];
@@ -63,6 +64,17 @@ impl Directions {
             true => Self(basis),
             false => self,
         }
+    }
+
+    /// With those of other unit vectors that are at right angles to them.
+    pub(super) fn and_across(mut self, others: Self) -> Self {
+        let across = others
+            .0
+            .into_iter()
+            .filter(|other| self.along(*other).norm() < ROUND_OFF);
+        let across: Vec<Vector3<f64>> = across.collect();
+        self.0.extend(across);
+        self
     }
 
     /// What of a vector is along them.

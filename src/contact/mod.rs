@@ -12,7 +12,7 @@
 //! | facets that face the other side | `facing` |
 //! | skins that face each other within a distance | `facing_skins` |
 //! | corners and the nodes around them (C16) | `corner_weights` |
-//! | what straight facets leave of a round surface (C18) | `rounding`: `turning_edges` |
+//! | what straight facets leave of a round surface (C18) | `rounding`: `turning_edges`, `mirror` |
 //! | gaps that are nowhere less than the least distance (C20) | `lift` |
 //! | against a rigid obstacle | `on_obstacle`: `obstacle` |
 //! | how a body moves that carries obstacles, or is between the faces of a cut | `rigid_body` |
@@ -27,6 +27,7 @@ pub(crate) mod frame;
 mod held;
 mod law;
 mod lift;
+mod mirror;
 pub(crate) mod mortar;
 mod node;
 mod obstacle;

@@ -33,14 +33,14 @@ pub(super) fn on_obstacle(
     let (mut contacts, mut left_out) = (Vec::new(), Vec::new());
     let gap = |node, position| Ok(view.closest(node, position)?.distance);
     let facets: Vec<Facet> = facing.iter().map(|(facet, _)| facet.clone()).collect();
-    let bulges = boundary.bulges(&facets, pair.rounded);
+    let bulges = scene.bulges(pair.body, &facets, pair.rounded);
     let every: Vec<usize> = (0..facets.len())
         .filter(|&f| facets[f].is_quadratic(body.mesh.dimension))
         .collect();
     let (rounded, largest_bulge) = bulges.rounded(&every);
     for footing in footings(body, &facing, &bulges, gap)? {
         let node = footing.node;
-        let closest = view.closest(node, body.mesh.nodes[node])?;
+        let closest = view.closest(node, view.place(&footing, scene))?;
         if closest.beyond {
             continue;
         }
@@ -79,6 +79,22 @@ impl View<'_> {
             Some(_) => self.obstacle.check_around(&self.pair.place),
             None => Ok(()),
         }
+    }
+
+    /// Where a contact's reaction acts, in metre: there its normal is the obstacle's, so that a smooth circle takes no moment.
+    /// In a plane of symmetry it acts with that of its image.
+    fn place(&self, footing: &Footing, scene: &Bodies<'_>) -> [f64; 3] {
+        let at = |node: usize| Vector3::from(self.body.mesh.nodes[node]);
+        let corner = at(footing.node);
+        if let [_] = footing.own.as_slice() {
+            return corner.into();
+        }
+        let parts = footing
+            .own
+            .iter()
+            .map(|&(node, weight)| (at(node) - corner) * weight);
+        let way: Vector3<f64> = parts.sum();
+        (corner + scene.held(self.pair.body, footing.node).across(way)).into()
     }
 
     /// The obstacle from a position, for the contact at `node`.

@@ -27,7 +27,7 @@
 //! should fit depart from each other by up to the sum of their sagittas, which may be more than
 //! what they overlap or approach. Gaps are therefore measured between the smooth surfaces: what facets
 //! leave of them is taken off. Where the facets' own turns say that nothing is round, b is exactly zero:
-//! on flat faces, beside a kink between two of them, beside a fillet of much shorter facets; and at a corner, from which on a facet goes by its
+//! on flat faces, beside kinks between them (an arc turns at three nodes on end, at least), beside a fillet of much shorter facets; and at a corner, from which on a facet goes by its
 //! other end, as it does at the end of a surface. Facets whose middle nodes follow the curve are round
 //! already.
 
@@ -35,6 +35,7 @@ use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
+use super::mirror::{Mirrors, image};
 use super::turn::{CORNER, STRAIGHT, UNLIKE, is_straight, smaller, turn};
 use super::turning_edges::turning_edges;
 use crate::body::{Facet, Mesh};
@@ -145,26 +146,15 @@ struct Curvature {
 }
 
 impl Turns {
-    /// Of the facets of a whole boundary in outward order.
-    pub(super) fn new(mesh: &Mesh, boundary: &[Facet]) -> Self {
-        let mut curvature = HashMap::new();
-        if mesh.dimension == 2 {
-            for (node, [before, after]) in joints(mesh, boundary) {
-                let turn = turn(before, after);
-                if turn.abs() < CORNER {
-                    let turn = if turn.abs() < STRAIGHT { 0.0 } else { turn };
-                    let [before, after] = [before.norm(), after.norm()];
-                    let at_node = Curvature {
-                        value: 2.0 * turn / (before + after),
-                        shorter: before.min(after),
-                    };
-                    curvature.insert(node, at_node);
-                }
-            }
-        }
+    /// Of the facets of a whole boundary in outward order, which go on behind planes of symmetry.
+    pub(super) fn new(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> Self {
+        let curvature = match mesh.dimension {
+            2 => curvatures(mesh, boundary, mirrors),
+            _ => HashMap::new(),
+        };
         let edges = match mesh.dimension {
             2 => HashMap::new(),
-            _ => turning_edges(mesh, boundary),
+            _ => turning_edges(mesh, boundary, mirrors),
         };
         Self { curvature, edges }
     }
@@ -212,14 +202,63 @@ impl Turns {
     }
 }
 
-/// The nodes where one line ends and one begins, with both lines.
-fn joints(mesh: &Mesh, boundary: &[Facet]) -> impl Iterator<Item = (usize, [Vector3<f64>; 2])> {
-    let mut lines: HashMap<usize, [Vec<Vector3<f64>>; 2]> = HashMap::new();
+/// κ of the nodes of a boundary of lines; none at corners, zero at kinks: an arc turns at three nodes on end, at least.
+fn curvatures(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> HashMap<usize, Curvature> {
+    let mut found = HashMap::new();
+    let mut beside: HashMap<usize, [usize; 2]> = HashMap::new();
+    for (node, ends) in joints(mesh, boundary) {
+        let mut lines = [span(mesh, ends[0], node), span(mesh, node, ends[1])];
+        let planes = lines.map(|line| {
+            let across = line.cross(&Vector3::z()).try_normalize(0.0)?;
+            mirrors.of_surface(node, across).pop()
+        });
+        // Of two lines one may be a plane of symmetry: then the other's image stands for it.
+        let seen = match planes {
+            [Some(plane), None] => Some((0, plane)),
+            [None, Some(plane)] => Some((1, plane)),
+            _ => None,
+        };
+        let mut ends = ends;
+        if let Some((real, plane)) = seen {
+            lines[1 - real] = -image(lines[real], &plane);
+            ends[1 - real] = ends[real];
+        }
+        let turn = turn(lines[0], lines[1]);
+        if turn.abs() < CORNER {
+            let turn = if turn.abs() < STRAIGHT { 0.0 } else { turn };
+            let [before, after] = lines.map(|line| line.norm());
+            let value = 2.0 * turn / (before + after);
+            let shorter = before.min(after);
+            found.insert(node, Curvature { value, shorter });
+            beside.insert(node, ends);
+        }
+    }
+    let turns = |node: usize| found.get(&node).map_or(0.0, |of| of.value);
+    let on = |node: usize, from: usize| {
+        let ends = beside.get(&node)?;
+        Some(if ends[0] == from { ends[1] } else { ends[0] })
+    };
+    let alone = |&(node, ends): &(usize, [usize; 2])| {
+        let alike = |other: Option<usize>| other.is_some_and(|at| turns(at) * turns(node) > 0.0);
+        let near = ends.map(|end| alike(Some(end)));
+        let far = [0, 1].map(|k| near[k] && alike(on(ends[k], node)));
+        !(near == [true; 2] || far.contains(&true))
+    };
+    let nodes = beside.iter().map(|(node, ends)| (*node, *ends));
+    let kinks: Vec<usize> = nodes.filter(alone).map(|(node, _)| node).collect();
+    for node in kinks {
+        found.entry(node).and_modify(|of| of.value = 0.0);
+    }
+    found
+}
+
+/// The nodes where one line ends and one begins, with the other ends of both.
+fn joints(mesh: &Mesh, boundary: &[Facet]) -> impl Iterator<Item = (usize, [usize; 2])> {
+    let mut lines: HashMap<usize, [Vec<usize>; 2]> = HashMap::new();
     for facet in boundary {
         if let [start, end] = facet.corners(mesh.dimension) {
-            let line = span(mesh, *start, *end);
-            lines.entry(*end).or_default()[0].push(line);
-            lines.entry(*start).or_default()[1].push(line);
+            lines.entry(*end).or_default()[0].push(*start);
+            lines.entry(*start).or_default()[1].push(*end);
         }
     }
     lines.into_iter().filter_map(|(node, lines)| match lines {
@@ -248,7 +287,7 @@ mod tests {
                 nodes: vec![k, (k + 1) % points.len()],
             })
             .collect();
-        Turns::new(&mesh, &lines)
+        Turns::new(&mesh, &lines, &Mirrors::default())
             .bulges(&mesh, &lines, true)
             .of
             .iter()
@@ -287,7 +326,18 @@ mod tests {
             [0.0, 2.0],
         ];
         assert!(bulges(&square).iter().all(|s| *s == 0.0));
-        // A roof of 0.2 rad on it.
+        // A roof of 0.2 rad on it, its sides of one line or of two; a flat between two chamfers.
+        let tent = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [1.0, 2.1], [0.0, 2.0]];
+        assert!(bulges(&tent).iter().all(|s| *s == 0.0));
+        let foot = [
+            [0.0, 0.1],
+            [0.5, 0.0],
+            [1.5, 0.0],
+            [2.0, 0.1],
+            [2.0, 1.0],
+            [0.0, 1.0],
+        ];
+        assert!(bulges(&foot).iter().all(|s| *s == 0.0));
         let roof = [
             [0.0, 0.0],
             [2.0, 0.0],

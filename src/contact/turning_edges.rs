@@ -9,15 +9,20 @@
 //! The normal is exact for nodes on a sphere, whatever the facets, and s is the exact sagitta of a circle
 //! over its chord. Facets that meet at more than the angle of a corner have normals of
 //! their own. At such an edge, and where the surface ends, a normal is one-sided; from there an edge
-//! turns as it does at its other end.
+//! turns as it does at its other end. At a plane of symmetry the surface goes on as its mirror image. An edge is of an arc
+//! where the surface turns alike at three nodes on end; else these are kinks between faces.
 //! Normals: Max, J. Graphics Tools 4 (1999) 1–6.
 
 use std::collections::HashMap;
 
 use nalgebra::Vector3;
 
+use super::mirror::{Mirrors, image, lies_in};
 use super::turn::{CORNER, STRAIGHT, UNLIKE, smaller};
 use crate::body::{Facet, Mesh};
+
+/// Cosine from which on an edge goes on behind another one.
+const BEHIND: f64 = 0.5;
 
 /// A facet at one of its corners.
 struct Wedge {
@@ -28,11 +33,25 @@ struct Wedge {
     after: usize,
 }
 
-/// Half turn in radian at one end of an edge; `open` where the normal is one-sided.
+/// Half turn in radian at one end of an edge.
 #[derive(Clone, Copy, Default)]
 struct End {
     half_turn: f64,
+    /// The normal is one-sided.
     open: bool,
+    /// It is, and nothing goes on behind the edge.
+    last: bool,
+}
+
+/// Facets around a node that go on from one to the next without a corner.
+struct Fan<'a> {
+    node: usize,
+    wedges: Vec<&'a Wedge>,
+    normal: Vector3<f64>,
+    /// It does not go all around the node.
+    open: bool,
+    /// Planes of symmetry behind which it goes on.
+    mirrors: Vec<Vector3<f64>>,
 }
 
 /// Facets of a boundary in outward order.
@@ -43,20 +62,25 @@ struct Faces<'a> {
 }
 
 /// `4 s` in metre per edge, from corner to corner in the order of its facet; those that turn.
-pub(super) fn turning_edges(mesh: &Mesh, boundary: &[Facet]) -> HashMap<[usize; 2], f64> {
+pub(super) fn turning_edges(
+    mesh: &Mesh,
+    boundary: &[Facet],
+    mirrors: &Mirrors,
+) -> HashMap<[usize; 2], f64> {
     let faces = Faces::new(mesh, boundary);
     let corners: usize = faces.corners.iter().map(|corners| corners.len()).sum();
     let mut ends = vec![[[End::default(); 2]; 4]; faces.corners.len()];
     for (node, wedges) in faces.wedges() {
-        for (fan, open) in faces.fans(&wedges) {
-            let normal = faces.normal(node, &fan);
-            for wedge in &fan {
+        for (wedges, open) in faces.fans(&wedges) {
+            let fan = faces.fan(node, wedges, open, mirrors);
+            for wedge in &fan.wedges {
                 let end = |other: usize| {
-                    let half_turn = faces.half_turn(normal, node, other);
-                    let goes_on = open || faces.goes_on(node, other, &fan);
+                    let half_turn = faces.half_turn(fan.normal, node, other);
+                    let goes_on = faces.goes_on(other, &fan);
                     End {
                         half_turn: if goes_on { half_turn } else { 0.0 },
-                        open,
+                        open: fan.open,
+                        last: fan.open && !goes_on,
                     }
                 };
                 let last = faces.corners[wedge.facet].len() - 1;
@@ -66,27 +90,40 @@ pub(super) fn turning_edges(mesh: &Mesh, boundary: &[Facet]) -> HashMap<[usize; 
             }
         }
     }
+    let mut around: HashMap<usize, Vec<Neighbour>> = HashMap::new();
+    for (edge, ends) in faces.edges().zip(ends.iter().flatten()) {
+        let Some([from, to]) = edge else { continue };
+        let half_turns = half_turns(*ends);
+        around.entry(from).or_default().push((to, half_turns[1]));
+        around.entry(to).or_default().push((from, half_turns[0]));
+    }
     let mut turning = HashMap::with_capacity(corners);
-    for (corners, ends) in faces.corners.iter().zip(&ends) {
-        for (at, ends) in ends.iter().enumerate().take(corners.len()) {
-            let edge = [corners[at], corners[(at + 1) % corners.len()]];
-            let round = faces.edge(edge[0], edge[1]).norm() * 2.0 * (half_turn(*ends) / 2.0).tan();
-            if round != 0.0 {
-                turning.insert(edge, round);
-            }
+    for (edge, ends) in faces.edges().zip(ends.iter().flatten()) {
+        let Some(edge) = edge else { continue };
+        let ends = half_turns(*ends);
+        if !faces.is_of_an_arc(edge, ends, &around, mirrors) {
+            continue;
+        }
+        let half_turn = smaller(ends);
+        let round = faces.edge(edge[0], edge[1]).norm() * 2.0 * (half_turn / 2.0).tan();
+        if round != 0.0 {
+            turning.insert(edge, round);
         }
     }
     turning
 }
 
-/// Half the turn of an edge, from those at its ends.
-fn half_turn(ends: [End; 2]) -> f64 {
+/// A node at the other end of an edge, with the half turn there if it is known.
+type Neighbour = (usize, Option<f64>);
+
+/// The half turns of an edge at its ends, where they are known.
+fn half_turns(ends: [End; 2]) -> [Option<f64>; 2] {
     let one_sided = ends[0].open != ends[1].open;
-    smaller(ends.map(|end| {
-        let known = !(one_sided && end.open);
+    ends.map(|end| {
+        let known = !(end.last || one_sided && end.open);
         let turns = end.half_turn.abs() >= STRAIGHT / 2.0;
         known.then_some(if turns { end.half_turn } else { 0.0 })
-    }))
+    })
 }
 
 impl<'a> Faces<'a> {
@@ -106,6 +143,50 @@ impl<'a> Faces<'a> {
         let normals = normals.map(|normal| normal.try_normalize(0.0).unwrap_or_default());
         faces.normals = normals.collect();
         faces
+    }
+
+    /// Four edges of every facet in the order of its corners; none for the fourth of a triangle.
+    fn edges(&self) -> impl Iterator<Item = Option<[usize; 2]>> {
+        self.corners.iter().flat_map(|corners| {
+            let next = |at: usize| corners[(at + 1) % corners.len()];
+            (0..4).map(move |at| Some([*corners.get(at)?, next(at)]))
+        })
+    }
+
+    /// Whether the surface turns alike at three nodes on end along an edge: else these are kinks between faces.
+    fn is_of_an_arc(
+        &self,
+        [from, to]: [usize; 2],
+        half_turns: [Option<f64>; 2],
+        around: &HashMap<usize, Vec<Neighbour>>,
+        mirrors: &Mirrors,
+    ) -> bool {
+        let behind = |at: usize, away: usize, turn: f64| {
+            let neighbours = around.get(&at).into_iter().flatten();
+            let alike = neighbours.filter(move |(_, far)| far.is_some_and(|far| far * turn > 0.0));
+            let nodes = alike.map(|(other, _)| *other);
+            nodes.filter(move |other| self.is_behind(*other, at, away, mirrors))
+        };
+        let two_behind = |at: usize, away: usize, turn: f64| {
+            behind(at, away, turn).any(|next| behind(next, at, turn).next().is_some())
+        };
+        match half_turns {
+            [Some(a), Some(b)] => {
+                let mut third = behind(from, to, a).chain(behind(to, from, b));
+                a * b > 0.0 && third.next().is_some()
+            }
+            [Some(turn), None] => two_behind(from, to, turn),
+            [None, Some(turn)] => two_behind(to, from, turn),
+            [None, None] => false,
+        }
+    }
+
+    /// Whether a node, or its image, is behind another one as seen from a third.
+    fn is_behind(&self, node: usize, at: usize, away: usize, mirrors: &Mirrors) -> bool {
+        let (edge, way) = (self.edge(at, away), self.edge(at, node));
+        let images = mirrors.at(at).iter().map(|plane| image(way, plane));
+        let least = BEHIND * edge.norm() * way.norm();
+        images.chain([way]).any(|way| -way.dot(&edge) > least)
     }
 
     fn edge(&self, from: usize, to: usize) -> Vector3<f64> {
@@ -171,13 +252,50 @@ impl<'a> Faces<'a> {
         sum.try_normalize(0.0).unwrap_or_default()
     }
 
-    /// Whether the facets of a fan go on behind a node for a part of an edge to another one: a long edge
+    /// A fan with its normal, which lies in the planes of symmetry behind which it goes on.
+    fn fan<'w>(
+        &self,
+        node: usize,
+        wedges: Vec<&'w Wedge>,
+        open: bool,
+        mirrors: &Mirrors,
+    ) -> Fan<'w> {
+        let normal = self.normal(node, &wedges);
+        let mirrors = mirrors.of_surface(node, normal);
+        let across = mirrors
+            .iter()
+            .fold(normal, |normal, plane| normal - plane * plane.dot(&normal));
+        let loose = [
+            wedges.first().map(|w| w.after),
+            wedges.last().map(|w| w.before),
+        ];
+        let ends = loose.into_iter().flatten().any(|other| {
+            let edge = self.edge(node, other);
+            !mirrors.iter().any(|plane| lies_in(edge, plane))
+        });
+        Fan {
+            node,
+            normal: across.try_normalize(0.0).unwrap_or_default(),
+            open: open && ends,
+            wedges,
+            mirrors,
+        }
+    }
+
+    /// Whether the facets of a fan go on behind its node for a part of an edge to another one: a long edge
     /// beside short facets is a flat that goes over into a fillet.
-    fn goes_on(&self, node: usize, other: usize, fan: &[&Wedge]) -> bool {
-        let edge = self.edge(node, other);
-        let behind = |wedge: &&Wedge| -self.edge(node, wedge.after).dot(&edge);
-        let most = fan.iter().map(behind).fold(0.0, f64::max);
-        edge.norm_squared() <= UNLIKE * most
+    fn goes_on(&self, other: usize, fan: &Fan<'_>) -> bool {
+        let edge = self.edge(fan.node, other);
+        let behind = fan.wedges.iter().map(|wedge| {
+            let ends = [wedge.after, wedge.before];
+            let mut ways = ends.map(|end| self.edge(fan.node, end)).to_vec();
+            for plane in &fan.mirrors {
+                let images: Vec<_> = ways.iter().map(|way| image(*way, plane)).collect();
+                ways.extend(images);
+            }
+            ways.iter().map(|way| -way.dot(&edge)).fold(0.0, f64::max)
+        });
+        edge.norm_squared() <= UNLIKE * behind.fold(0.0, f64::max)
     }
 
     fn half_turn(&self, normal: Vector3<f64>, node: usize, other: usize) -> f64 {
@@ -191,6 +309,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
     use crate::body::{CellKind, box_mesh, graded};
+    use crate::contact::held::Directions;
 
     /// `4 s` of the edges of a block's boundary after a move of its nodes.
     fn edges(
@@ -202,7 +321,7 @@ mod tests {
         for node in &mut mesh.nodes {
             *node = to(*node);
         }
-        let turning = turning_edges(&mesh, &mesh.boundary_facets());
+        let turning = turning_edges(&mesh, &mesh.boundary_facets(), &Mirrors::default());
         (mesh, turning)
     }
 
@@ -233,13 +352,61 @@ mod tests {
             assert!(edges(kind, |x| x).1.is_empty(), "{kind:?}");
             let kink = graded(-1.0, 1.0, 6, 1.4).unwrap()[3];
             let kinked = |[x, y, z]: [f64; 3]| [x, y, z + 0.1 * (x - kink).abs()];
-            // Where a kink runs out at the end of a face it looks like the beginning of an arc.
-            let (mesh, turning) = edges(kind, kinked);
-            let inside = |node: &usize| mesh.nodes[*node][1].abs() < 1.0;
+            assert!(edges(kind, kinked).1.is_empty(), "{kind:?}");
+            // With sides of a single facet.
+            let mut tent =
+                box_mesh(&[-1.0, 0.0, 1.0], &[0.0, 1.0, 2.0], &[0.0, 1.0], kind).unwrap();
+            for node in &mut tent.nodes {
+                node[2] -= 0.25 * node[0].abs();
+            }
+            let facets = tent.boundary_facets();
             assert!(
-                !turning.keys().any(|edge| edge.iter().all(inside)),
+                turning_edges(&tent, &facets, &Mirrors::default()).is_empty(),
                 "{kind:?}"
             );
+        }
+    }
+
+    #[test]
+    fn a_quarter_of_a_dome_between_planes_of_symmetry_turns_as_the_whole() {
+        for kind in KINDS {
+            let dome = |[x, y, z]: [f64; 3]| [x, y, z + 0.05 * (x * x + y * y)];
+            let part = |from: f64| {
+                let steps = [-1.0, -0.3, 0.0, 0.3, 1.0];
+                let along: Vec<f64> = steps.into_iter().filter(|x| *x >= from).collect();
+                let mut mesh = box_mesh(&along, &along, &[-1.0, 0.0], kind).unwrap();
+                for node in &mut mesh.nodes {
+                    *node = dome(*node);
+                }
+                let facets = mesh.boundary_facets();
+                let held = |node: usize| {
+                    let at = mesh.nodes[node];
+                    Directions::from([at[0] == from, at[1] == from, false])
+                };
+                let mirrors = match from {
+                    0.0 => Mirrors::new(&mesh, &facets, held),
+                    _ => Mirrors::default(),
+                };
+                let turning = turning_edges(&mesh, &facets, &mirrors);
+                let x = |node: usize| mesh.nodes[node].map(|x| (x * 1e6).round() as i64);
+                let named = turning
+                    .into_iter()
+                    .map(|(edge, round)| (edge.map(x), round));
+                named.collect::<HashMap<_, _>>()
+            };
+            let (quarter, whole) = (part(0.0), part(-1.0));
+            let mut compared = 0;
+            for (edge, round) in &quarter {
+                // Diagonals of tetrahedra are not those of the image.
+                let Some(other) = whole.get(edge) else {
+                    continue;
+                };
+                if kind == CellKind::Hex8 {
+                    assert!((round - other).abs() < 1e-14, "{edge:?} {round} {other}");
+                }
+                compared += 1;
+            }
+            assert!(compared >= 12, "{kind:?} {compared}");
         }
     }
 

@@ -62,26 +62,39 @@ pub(super) fn facets(
              wrong by tens of per cent; refine to below {COARSE:.0}"
         ));
     }
-    // Between smooth surfaces nothing is left of the sagittas.
-    let coupling = parts.surface.couplings.get(pair);
-    if coupling.is_some_and(|coupling| coupling.rounded > 0) {
-        return None;
-    }
-    let off = 2.0 / 3.0 * bends.iter().map(|bend| bend.sagitta).sum::<f64>().abs();
     let stated = of_pair.gap;
     let moved = pressed
         .iter()
         .map(|contact| (contact.initial_gap + stated).abs());
     let moved = moved.fold(0.0, f64::max);
+    let coupling = parts.surface.couplings.get(pair)?;
+    if coupling.rounded > 0 {
+        return (coupling.largest_bulge > moved).then(|| rounded(coupling.largest_bulge, moved));
+    }
+    let off = 2.0 / 3.0 * bends.iter().map(|bend| bend.sagitta).sum::<f64>().abs();
+    let cure = match of_pair.rounded {
+        true => "",
+        false => "leave out `rounded: false`, ",
+    };
     (off > OF_OVERLAP * moved && moved > 0.0).then(|| {
         format!(
-            "straight facets stand off the curved surfaces that they mesh by {} in the mean, where these \
-             overlap or approach each other by {}: pressures are wrong by as large a part; leave out \
-             `rounded: false`, refine, or take quadratic cells",
+            "if straight facets stand for curved surfaces they are off them by {} in the mean, where these \
+             overlap or approach each other by {}, and pressures are wrong by as large a part: {cure}refine, or \
+             take quadratic cells; edges that are meant are right as they are",
             significant(off),
             significant(moved)
         )
     })
+}
+
+/// That facets are taken for curves which leave them by more than what the sides overlap or approach.
+fn rounded(bulge: f64, moved: f64) -> String {
+    format!(
+        "gaps are measured from the curved surfaces that straight facets stand for, up to {} off them, where these \
+         overlap or approach each other by {}: where edges are meant as they are drawn say `rounded: false`",
+        significant(bulge),
+        significant(moved)
+    )
 }
 
 /// How the facets of a side bend.

@@ -692,3 +692,19 @@ fn a_ball_stiffens_as_hertz_says() {
     let rate = found.of("normal").unwrap() / report.totals.normal;
     assert!((rate / 1.5 - 1.0).abs() < 0.5 / 16.0, "{rate}");
 }
+
+#[test]
+fn a_smooth_circle_takes_no_moment_from_quadratic_cells() {
+    // Off the middle of the cells, so that contacts on both sides differ: each one's force goes through the centre.
+    for kind in [CellKind::Quad8, CellKind::Tri6] {
+        let lines: Vec<f64> = (0..=12).map(|k| f64::from(k) * 0.1 - 0.47).collect();
+        let mesh = rectangle(&lines, &[-1.0, -0.5, -0.2, 0.0], kind).unwrap();
+        let circle = json!({"circle": {"center": [0, 2], "radius": 2}});
+        let moved = json!({"reference": [0, 2], "displacement": [0, -0.02], "rotation": [0]});
+        let found = report(&scene("plane_strain", &circle, &moved, 0.0), &mesh);
+        let of_circle = &found.rigid_bodies[0].contact;
+        assert!(found.totals.stick + found.totals.slip > 3);
+        let arm = of_circle.moment[0] / of_circle.force[1];
+        assert!(arm.abs() < 1e-12, "{kind:?} {arm}");
+    }
+}

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use dpana::body::{CellKind, Facet, Group, Mesh};
 use dpana::report::Report;
-use dpana::scene::SceneBody;
+use dpana::scene::{SceneBody, SceneSupport};
 use dpana::{Scene, Solution};
 
 use crate::stacks::{body, certified, contact, hold_at, scene};
@@ -145,4 +145,55 @@ fn told_not_to_round_a_fit_is_that_of_polygons_and_says_so() {
     assert_eq!(solution.condensed().surface().couplings[0].rounded, 0);
     let told = report.notes.iter().any(|note| note.contains("facets"));
     assert!(told, "{:?}", report.notes);
+}
+
+/// A sector of a ring, one straight facet wide, between planes of symmetry.
+fn sector(name: &str, radii: [f64; 2]) -> SceneBody {
+    let (angle, across) = (PI / 12.0, 8);
+    let mut nodes = Vec::new();
+    for layer in 0..=across {
+        let r = radii[0] + (radii[1] - radii[0]) * f64::from(layer) / f64::from(across);
+        nodes.extend([0.0, angle].map(|at: f64| [r * at.cos(), r * at.sin(), 0.0]));
+    }
+    let mut mesh = Mesh::new(2, nodes);
+    for layer in 0..across as usize {
+        let first = 2 * layer;
+        mesh.push_cell(CellKind::Quad4, &[first, first + 2, first + 3, first + 1]);
+    }
+    let mut group = |name: &str, facets: Vec<Vec<usize>>| {
+        let facets = facets.into_iter().map(|nodes| Facet { nodes }).collect();
+        mesh.groups.insert(name.to_owned(), Group::Facets(facets));
+    };
+    let last = 2 * across as usize;
+    group("inner", vec![vec![0, 1]]);
+    group("outer", vec![vec![last, last + 1]]);
+    for (cut, node) in [("start", 0), ("end", 1)] {
+        let lines = (0..last)
+            .step_by(2)
+            .map(|at| vec![at + node, at + node + 2]);
+        group(cut, lines.collect());
+    }
+    let mut body = body(name, mesh, YOUNG, POISSON);
+    body.supports
+        .extend(["start", "end"].map(|cut| SceneSupport::normal(cut, 0.0)));
+    body
+}
+
+#[test]
+fn a_sector_between_planes_of_symmetry_turns_as_its_ring() {
+    // Whichever side carries: the facets go on behind the planes, normals lie in them, and p is Lamé's to the mesh error of
+    // eight linear cells across.
+    let joint = RADII[1];
+    for pair in [
+        [["shaft", "outer"], ["hub", "inner"]],
+        [["hub", "inner"], ["shaft", "outer"]],
+    ] {
+        let shaft = sector("shaft", [RADII[0], joint + TOO_THICK]);
+        let hub = sector("hub", [joint, RADII[2]]);
+        let scene = scene(vec![shaft, hub], vec![contact(pair[0], pair[1], 0.0)]);
+        let (_, report) = certified(&scene);
+        let expected = joint * PI / 12.0 * lame();
+        let off = report.totals.normal / expected - 1.0;
+        assert!(off.abs() < 0.02, "{off}");
+    }
 }

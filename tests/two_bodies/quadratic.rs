@@ -3,9 +3,9 @@
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use dpana::body::CellKind;
+use dpana::body::{CellKind, rectangle};
 use dpana::report::{Contact, Report};
-use dpana::scene::{MeshSource, SceneBody, SceneContact, SceneLoad, SceneSupport};
+use dpana::scene::{MeshSource, SceneBody, SceneContact, SceneLoad, SceneObstacle, SceneSupport};
 
 use crate::rounds::{Wall, bent, octant, quarter, quarter_disc, quarter_square, tube};
 use crate::stacks::{body, certified, contact, hold, scene};
@@ -358,5 +358,41 @@ fn one_stress_passes_a_bent_cut_up_to_its_free_end() {
             let expected = |step: &[f64; 2]| step[0] > 0.95 && step[1] > 1.45;
             assert!(orders.iter().all(expected), "{kinds:?} {orders:?}");
         }
+    }
+}
+
+#[test]
+fn a_contact_at_a_corner_that_is_held_keeps_its_normal_however_the_scene_is_turned() {
+    // Two squares side by side, their tops given, on a plane: what carries what is the same at every angle.
+    let forces = |angle: f64| {
+        let (sin, cos) = f64::sin_cos(angle);
+        let turn = |[x, y]: [f64; 2]| [cos * x - sin * y, sin * x + cos * y];
+        let part = |name: &str, from: f64| {
+            let mut mesh = rectangle(&[from, from + 1.0], &[0.0, 1.0], CellKind::Quad8).unwrap();
+            for node in &mut mesh.nodes {
+                let [x, y] = turn([node[0], node[1]]);
+                *node = [x, y, 0.0];
+            }
+            let [x, y] = turn([0.002, -0.01]);
+            hold(
+                hold(body(name, mesh, 1000.0, 0.3), "top", 0, x),
+                "top",
+                1,
+                y,
+            )
+        };
+        let on_plane = |name: &str| {
+            let plane = SceneObstacle::plane(&[0.0, 0.0], &turn([0.0, 1.0]));
+            SceneContact::on(plane, "bottom", 0.3).of(name)
+        };
+        let side = contact(["one", "right"], ["two", "left"], 0.3);
+        let contacts = vec![side, on_plane("one"), on_plane("two")];
+        let scene = scene(vec![part("one", 0.0), part("two", 1.0)], contacts);
+        certified(&scene).1.totals.normal
+    };
+    let straight = forces(0.0);
+    for angle in [0.3, 1.0, 2.0] {
+        let off = forces(angle) / straight - 1.0;
+        assert!(off.abs() < 1e-9, "{angle} {off}");
     }
 }
