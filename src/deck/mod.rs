@@ -7,7 +7,8 @@
 //! interaction, pair  laws, and the surfaces that obey them; adjust   slave nodes moved onto the master
 //! transform, rigid, cyclic          directions of nodes, nodes that move as one, sectors that repeat
 //! pre_tension, bolt                 bolts under preload
-//! load, amplitude    what a card gives;            history  what holds at every instant
+//! load, distributed, amplitude      what a card gives
+//! history, sum       what holds at every instant;  what loads add up to, in global axes
 //! acting, assemble   the scene
 //! ```
 //!
@@ -20,7 +21,7 @@
 //! | `*TIE` | slave faces that are near enough are moved onto the master and one with it |
 //! | `ADJUST=`, `*CLEARANCE` | slave nodes that overlap, or are near, or of a set, are moved onto the master surface; a distance in place of none that is drawn |
 //! | `*MODEL CHANGE` of pairs | in the steps in which they are taken out their gap is ten times the size of the deck |
-//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, CENTRIF, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, ramp, end with `OP=NEW`; supports stay |
+//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, CENTRIF, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, each type of load by itself, ramp, end with `OP=NEW`; supports stay |
 //! | `*INITIAL CONDITIONS, TYPE=TEMPERATURE`, `*TEMPERATURE` | the rise strains by the expansion |
 //! | `*TRANSFORM` | of supports and forces, straight or around a line |
 //! | `*RIGID BODY`, `*COUPLING` with `*KINEMATIC` of all directions | nodes of one part move as a rigid body, by what is stated at the reference node in one history |
@@ -62,6 +63,7 @@ mod amplitude;
 mod assemble;
 mod bolt;
 mod cyclic;
+mod distributed;
 mod elastic;
 mod history;
 mod interaction;
@@ -74,6 +76,7 @@ mod pre_tension;
 mod rigid;
 
 mod statement;
+mod sum;
 mod transform;
 
 use std::path::Path;

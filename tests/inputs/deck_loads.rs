@@ -1,0 +1,74 @@
+//! What loads of decks act with, step by step: what is restated, and nothing else, takes another value.
+
+use dpana::solve_steps;
+
+use crate::decks::{SQUARES, read};
+
+/// The squares with a density of 3 and these loads.
+fn squares(model: &str, steps: &str) -> String {
+    let (start, _) = SQUARES.split_once("*STEP").unwrap();
+    let start = start.replace("1000., 0.25", "1000., 0.25\n*DENSITY\n3.");
+    let start = start.replace("*BOUNDARY", &format!("{model}*BOUNDARY"));
+    let step = |loads: &str| format!("*STEP\n*STATIC\n{loads}*END STEP\n");
+    start + &steps.split("--\n").map(step).collect::<String>()
+}
+
+/// What the loads on a body add up to at every instant.
+fn loads(text: &str, body: usize) -> Vec<[f64; 2]> {
+    let mut found = Vec::new();
+    let last = solve_steps(&read(text).scene, None, |solution| {
+        let force = &solution.report()?.certificate.bodies[body].loads.force;
+        found.push([force[0], force[1]]);
+        Ok(())
+    });
+    assert_eq!(last.unwrap().status(), dpana::Status::Certified);
+    found
+}
+
+fn assert_loads(text: &str, body: usize, expected: &[[f64; 2]]) {
+    let found = loads(text, body);
+    assert_eq!(found.len(), expected.len(), "{found:?}");
+    for (found, expected) in found.iter().zip(expected) {
+        let apart = f64::hypot(found[0] - expected[0], found[1] - expected[1]);
+        assert!(apart < 1e-9, "{found:?} for {expected:?}");
+    }
+}
+
+const PRESSED: &str = "*DLOAD\n2, P3, 2.\n";
+
+#[test]
+fn each_type_of_load_is_restated_by_itself() {
+    // BX of 0.4, ρ g = 0.3, which turns from x to −y as one vector.
+    let step = "*DLOAD\n1, GRAV, 0.1, 1., 0.\n1, BX, 0.4\n";
+    let text = format!(
+        "{PRESSED}{step}--\n*DLOAD\n1, BX, 0.4\n--\n*DLOAD\n1, GRAV, 0.1, 0., -1.\n--\n*DLOAD\n1, BY, 0.1\n"
+    );
+    let expected = [[0.7, 0.0], [0.7, 0.0], [0.4, -0.3], [0.4, -0.2]];
+    assert_loads(&squares("", &text), 0, &expected);
+    // Two of one type in one step add up, whatever their histories where they do not meet.
+    let both = format!(
+        "{PRESSED}*DLOAD\n1, GRAV, 0.1, 1., 0.\n*DLOAD, AMPLITUDE=A\n1, GRAV, 0.1, 0., -1.\n"
+    );
+    let amplitude = "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n";
+    assert_loads(&squares(amplitude, &both), 0, &[[0.3, -0.6]]);
+    // By faces of elements 2, by a surface 1.
+    let lid = "*SURFACE, NAME=LID\nUP, S3\n";
+    let text = format!("{PRESSED}*DSLOAD\nLID, P, 1.\n--\n*DSLOAD\nLID, P, 1.\n--\n{PRESSED}");
+    assert_loads(&squares(lid, &text), 1, &[[0.0, -3.0]; 3]);
+    // m ω² r: another axis takes the place of the one before.
+    let text = format!(
+        "{PRESSED}*DLOAD\n1, CENTRIF, 1., 0.5, 2., 0., 0., 0., 1.\n--\n*DLOAD\n1, CENTRIF, 1., 0.5, 1., 0., 0., 0., 1.\n"
+    );
+    assert_loads(&squares("", &text), 0, &[[0.0, -4.5], [0.0, -1.5]]);
+}
+
+#[test]
+fn a_force_along_an_axis_of_its_node_is_restated_by_itself() {
+    // 0.1 (0.6, 0.8) + 0.2 (−0.8, 0.6) = (−0.1, 0.2).
+    let axes =
+        "*TRANSFORM, NSET=13\n0.6, 0.8, 0., -0.8, 0.6, 0.\n*AMPLITUDE, NAME=A\n0., 0., 1., 1.\n";
+    let text = format!("{PRESSED}*CLOAD\n13, 1, 0.1\n13, 2, 0.2\n--\n*CLOAD\n13, 1, 0.1\n");
+    assert_loads(&squares(axes, &text), 1, &[[-0.1, -1.8]; 2]);
+    let text = format!("{PRESSED}*CLOAD, AMPLITUDE=A\n13, 1, 0.1\n*CLOAD\n13, 2, 0.2\n");
+    assert_loads(&squares(axes, &text), 1, &[[-0.1, -1.8]]);
+}
