@@ -51,8 +51,8 @@ const FAMILIES: [&[&str]; 4] = [
 
 fn family(slot: Slot) -> usize {
     match slot {
-        Slot::Held(..) | Slot::Motion(..) | Slot::Shortening(_) => 0,
-        Slot::Force(..) | Slot::OwnForce(..) | Slot::Wrench(..) => 1,
+        Slot::Held(..) | Slot::Motion(..) | Slot::OwnMotion(..) | Slot::Shortening(_) => 0,
+        Slot::Force(..) | Slot::OwnForce(..) | Slot::Wrench(..) | Slot::OwnWrench(..) => 1,
         Slot::Preload(_) => 1,
         Slot::Pressure(_) | Slot::SurfacePressure(_) => 2,
         Slot::Weight(..) | Slot::Gravity(..) | Slot::Spin(..) => 2,
@@ -93,7 +93,7 @@ impl History {
         for (number, step) in (1..).zip(&statement.steps) {
             walk.step(number, step, notes)?;
         }
-        walk.history.values = walk.reader.sums(walk.history.values);
+        walk.history.values = walk.reader.sums(walk.history.values)?;
         Ok(walk.history)
     }
 }

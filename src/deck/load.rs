@@ -34,8 +34,12 @@ pub(super) enum Slot {
     Heat(usize),
     /// Displacement or, from 3 on, rotation of a rigid group.
     Motion(usize, usize),
+    /// The same along an axis of a reference node's own.
+    OwnMotion(usize, usize),
     /// Force on a rigid group or, from 3 on, moment.
     Wrench(usize, usize),
+    /// The same along an axis of a reference node's own.
+    OwnWrench(usize, usize),
     /// How much shorter a bolt is made.
     Shortening(usize),
     /// Force that a bolt carries.
@@ -141,6 +145,9 @@ impl Reader<'_> {
         }
         let mut given = Vec::new();
         for node in nodes {
+            if self.rigid.of(node).is_some() {
+                self.check_axes(row, node)?;
+            }
             let axes = (0..6).filter(|&axis| axes[axis]);
             let slots = axes.filter_map(|axis| self.support(node, axis));
             given.extend(slots.map(|slot| (slot, value)));
@@ -155,7 +162,10 @@ impl Reader<'_> {
         }
         if let Some((group, turns)) = self.rigid.of(node) {
             let component = self.component(turns, axis)?;
-            return Some(Slot::Motion(group, component));
+            return Some(match self.transforms.of(node) {
+                None => Slot::Motion(group, component),
+                Some(_) => Slot::OwnMotion(node, component),
+            });
         }
         let own = self.transforms.of(node).map_or(0, |at| 3 * (1 + at));
         (axis < self.dimension()).then_some(Slot::Held(node, own + axis))
@@ -187,8 +197,11 @@ impl Reader<'_> {
             self.check_axes(row, node)?;
             if let Some((group, turns)) = self.rigid.of(node) {
                 let force = force / depth(self.rigid.groups[group].part);
-                let component = self.component(turns, axis);
-                given.extend(component.map(|at| (Slot::Wrench(group, at), force)));
+                let slot = |at: usize| match own {
+                    true => Slot::OwnWrench(node, at),
+                    false => Slot::Wrench(group, at),
+                };
+                given.extend(self.component(turns, axis).map(|at| (slot(at), force)));
                 continue;
             }
             let (true, Some(part)) = (axis < self.dimension(), self.parts.of_node[node]) else {

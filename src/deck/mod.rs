@@ -23,7 +23,7 @@
 //! | `*MODEL CHANGE` of pairs | in the steps in which they are taken out their gap is ten times the size of the deck |
 //! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, CENTRIF, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, each type of load by itself, ramp, end with `OP=NEW`; supports stay |
 //! | `*INITIAL CONDITIONS, TYPE=TEMPERATURE`, `*TEMPERATURE` | the rise strains by the expansion |
-//! | `*TRANSFORM` | of supports and forces, straight or around a line |
+//! | `*TRANSFORM` | of supports and forces, straight or around a line; a reference node is held along global axes, or along all three of its own |
 //! | `*RIGID BODY`, `*COUPLING` with `*KINEMATIC` of all directions | nodes of one part move as a rigid body, by what is stated at the reference node in one history |
 //! | `*TIE, CYCLIC SYMMETRY`, `*CYCLIC SYMMETRY MODEL` | faces that turn onto each other node by node move as one |
 //! | `*PRE-TENSION SECTION` of solid elements | a bolt, cut along a plane: at its reference node `*CLOAD` is the force, `*BOUNDARY` the shortening, `*BOUNDARY, FIXED` in a later step the lock |

@@ -2,7 +2,7 @@
 
 use dpana::solve_steps;
 
-use crate::decks::{SQUARES, read};
+use crate::decks::{SQUARES, assert_close, certified, read, refused};
 
 /// The squares with a density of 3 and these loads.
 fn squares(model: &str, steps: &str) -> String {
@@ -71,4 +71,42 @@ fn a_force_along_an_axis_of_its_node_is_restated_by_itself() {
     assert_loads(&squares(axes, &text), 1, &[[-0.1, -1.8]; 2]);
     let text = format!("{PRESSED}*CLOAD, AMPLITUDE=A\n13, 1, 0.1\n*CLOAD\n13, 2, 0.2\n");
     assert_loads(&squares(axes, &text), 1, &[[-0.1, -1.8]]);
+}
+
+#[test]
+fn a_reference_node_has_directions_of_its_own() {
+    // Without lateral strain (ν = 0): u_y = −2 · 2 / 1000.
+    let (start, _) = SQUARES.split_once("*STEP").unwrap();
+    let start = start
+        .replace("0.25", "0.")
+        .replace("14, 0, 2\n", "14, 0, 2\n98, 7, 7\n99, 0.5, 3\n*NSET, NSET=UPPER\n13, 14\n")
+        .replace(
+            "*BOUNDARY",
+            "*RIGID BODY, NSET=UPPER, REF NODE=99, ROT NODE=98\n*TRANSFORM, NSET=99\nAXES\n*BOUNDARY",
+        );
+    let stated = |axes: &str, what: &str| {
+        let start = start.replace("AXES", axes);
+        format!("{start}*STEP\n*STATIC\n{what}*END STEP\n")
+    };
+    let upright = "0., 1., 0., -1., 0., 0.";
+    let aslant = "0.6, 0.8, 0., -0.8, 0.6, 0.";
+    for (axes, what) in [
+        (upright, "*CLOAD\n99, 1, -2.\n"),
+        (upright, "*BOUNDARY\n99, 1, 1, -0.004\n98, 3\n"),
+        (aslant, "*CLOAD\n99, 1, -1.6\n99, 2, -1.2\n"),
+        (
+            aslant,
+            "*BOUNDARY\n99, 1, 1, -0.0032\n99, 2, 2, -0.0024\n98, 3\n",
+        ),
+    ] {
+        let solution = certified(&read(&stated(axes, what)));
+        let corner = solution.displacement_near(1, [1.0, 2.0, 0.0]).unwrap();
+        assert_close(corner[1], -4e-3, 1e-9);
+        assert_close(solution.report().unwrap().totals.normal.abs(), 2.0, 1e-9);
+    }
+    let said = refused(&stated(aslant, "*BOUNDARY\n99, 1, 1, -0.004\n"));
+    assert!(
+        said.contains("*RIGID BODY: its reference node is held along axes of a *TRANSFORM"),
+        "{said}"
+    );
 }
