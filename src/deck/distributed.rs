@@ -1,6 +1,7 @@
-//! What `*DLOAD` and `*DSLOAD` set on faces and elements.
+//! What `*DLOAD` and `*DSLOAD` set on faces and elements; where no set is stated, on all elements.
 
 use super::load::{Given, Reader, Slot};
+use super::statement::Notes;
 use crate::error::Error;
 use crate::mesh_file::abaqus::{Row, Space, bare};
 
@@ -21,9 +22,16 @@ impl Reader<'_> {
     }
 
     /// Pressure on faces, force per volume, weight, spin.
-    pub(super) fn distributed(&self, row: Row<'_, '_>) -> Result<Vec<Given>, Error> {
+    pub(super) fn distributed(
+        &self,
+        row: Row<'_, '_>,
+        notes: &mut Notes,
+    ) -> Result<Vec<Given>, Error> {
         let label = bare(row.word(1));
-        let cells = self.contents.cells.members(row, row.word(0))?;
+        let cells = match row.word(0) {
+            "" if !label.starts_with('P') => self.all_cells(row, &label, notes),
+            word => self.contents.cells.members(row, word)?,
+        };
         let value = row.number(2, "a load", None)?;
         let along = |axis: usize| {
             Ok(cells
@@ -48,6 +56,23 @@ impl Reader<'_> {
                 "load `{label}` is not read; accepted: P1 to P6, GRAV, CENTRIF, BX, BY, BZ"
             ))),
         }
+    }
+
+    /// The elements of a load on the whole model, for which no set is stated; what has no density has no weight.
+    fn all_cells(&self, row: Row<'_, '_>, label: &str, notes: &mut Notes) -> Vec<usize> {
+        let all = 0..self.contents.elements.len();
+        let dense = |cell: &usize| self.materials.of(*cell).density.is_some();
+        if !["GRAV", "CENTRIF"].contains(&label) || !all.clone().any(|cell| dense(&cell)) {
+            return all.collect();
+        }
+        let heavy: Vec<usize> = all.clone().filter(dense).collect();
+        if heavy.len() < all.len() {
+            notes.add(
+                row.card,
+                "elements without *DENSITY are left out of the whole model",
+            );
+        }
+        heavy
     }
 
     fn weight(&self, row: Row<'_, '_>, cells: &[usize], gravity: f64) -> Result<Vec<Given>, Error> {

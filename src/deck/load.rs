@@ -96,7 +96,7 @@ impl Reader<'_> {
                 "CLOAD" => self.forces(row, notes)?,
                 "DSLOAD" => self.surface_pressure(row)?,
                 "TEMPERATURE" => self.heat(row, notes)?,
-                _ => self.distributed(row)?,
+                _ => self.distributed(row, notes)?,
             });
         }
         Ok(given)

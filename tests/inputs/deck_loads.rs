@@ -2,7 +2,7 @@
 
 use dpana::solve_steps;
 
-use crate::decks::{SQUARES, assert_close, certified, read, refused};
+use crate::decks::{SQUARES, assert_close, assert_squares, certified, read, refused};
 
 /// The squares with a density of 3 and these loads.
 fn squares(model: &str, steps: &str) -> String {
@@ -107,6 +107,73 @@ fn a_reference_node_has_directions_of_its_own() {
     let said = refused(&stated(aslant, "*BOUNDARY\n99, 1, 1, -0.004\n"));
     assert!(
         said.contains("*RIGID BODY: its reference node is held along axes of a *TRANSFORM"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_load_without_a_set_acts_on_the_whole_model() {
+    let text = format!("{PRESSED}*DLOAD\n, GRAV, 0.1, 0., -1.\n, BY, -0.2\n");
+    assert_loads(&squares("", &text), 0, &[[0.0, -0.5]]);
+    assert_loads(&squares("", &text), 1, &[[0.0, -2.5]]);
+    // What has no density has no weight.
+    let light = squares("*MATERIAL, NAME=L\n*ELASTIC\n1000., 0.25\n", &text)
+        .replace("ELSET=UP, MATERIAL=M", "ELSET=UP, MATERIAL=L");
+    assert_loads(&light, 1, &[[0.0, -2.2]]);
+    let note = "*DLOAD elements without *DENSITY are left out";
+    assert!(read(&light).notes.iter().any(|said| said.contains(note)));
+    let said = refused(&SQUARES.replace("2, P3, 2.", ", P3, 2."));
+    assert!(
+        said.contains("*DLOAD: `` is no element and no set of them"),
+        "{said}"
+    );
+}
+
+#[test]
+fn parameters_that_steer_a_method_are_noted_and_left() {
+    let more = ", TRACKING=STATE, NO THICKNESS, EXTENSION ZONE=0.1, SMOOTH=0.2, GEOMETRIC CORRECTION=G, \
+        MECHANICAL CONSTRAINT=PENALTY, CPSET=X";
+    let text = SQUARES
+        .replace("INTERACTION=I\nB", &format!("INTERACTION=I{more}\nB"))
+        .replace("*STEP", "*STEP, CONVERT SDI=NO, SOLVER=DIRECT");
+    let deck = read(&text);
+    for said in [
+        "deck.inp:26: *CONTACT PAIR `TRACKING` is not needed here",
+        "*CONTACT PAIR `SMOOTH`",
+        "*STEP `CONVERTSDI`",
+    ] {
+        assert!(
+            deck.notes.iter().any(|note| note.contains(said)),
+            "{said}: {:?}",
+            deck.notes
+        );
+    }
+    assert_squares(&deck);
+    let (start, rest) = SQUARES.split_once("*SURFACE INTERACTION").unwrap();
+    let rest = rest.split_once("BOTTOM, TOP").unwrap().1;
+    assert_squares(&read(&format!(
+        "{start}*TIE, NAME=T, NO ROTATION, NO THICKNESS\nBOTTOM, TOP{rest}"
+    )));
+    let said = refused(&SQUARES.replace("BOTTOM, TOP", "TOP, TOP"));
+    assert!(
+        said.contains(
+            "deck.inp:27: *CONTACT PAIR: expected slave and master surface; one that touches itself"
+        ),
+        "{said}"
+    );
+}
+
+#[test]
+fn friction_that_is_capped_gives_no_more_than_its_cap() {
+    // Pressed by 2 and dragged: μ p = 1, the cap is 0.3.
+    let text = SQUARES.replace("11, 1\n14, 1\n", "11, 1, 1, 0.1\n14, 1, 1, 0.1\n");
+    let dragged = |text: &str| certified(&read(text)).report().unwrap().totals.friction[0].abs();
+    assert_close(dragged(&text), 1.0, 1e-9);
+    let capped = text.replace("*FRICTION\n", "*FRICTION, TAUMAX=0.3\n");
+    assert_close(dragged(&capped), 0.3, 1e-9);
+    let said = refused(&capped.replace("=0.3", "=0."));
+    assert!(
+        said.contains("*FRICTION: `TAUMAX=0`; expected one above 0"),
         "{said}"
     );
 }
