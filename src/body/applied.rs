@@ -244,13 +244,13 @@ fn check_material(
     load: &Load,
     cells: &[usize],
 ) -> Result<(), Error> {
-    let acts = |of: fn(&Material) -> f64| {
+    let acts = |on: fn(&Material) -> bool| {
         let mut materials = cells.iter().map(|cell| body.material_of_cell[*cell]);
-        materials.any(|material| of(&body.materials[material]) != 0.0)
+        materials.any(|material| on(&body.materials[material]))
     };
     let (fits, field) = match load {
-        Load::Gravity { .. } | Load::Centrifugal { .. } => (acts(|m| m.density), "density"),
-        Load::Temperature { .. } => (acts(|m| m.expansion), "expansion"),
+        Load::Gravity { .. } | Load::Centrifugal { .. } => (acts(|m| m.density != 0.0), "density"),
+        Load::Temperature { .. } => (acts(Material::expands), "expansion"),
         _ => (true, ""),
     };
     match fits {

@@ -136,6 +136,14 @@ impl Material {
         }
     }
 
+    /// Whether heat strains it.
+    pub(crate) fn expands(&self) -> bool {
+        match &self.orthotropic {
+            None => self.expansion != 0.0,
+            Some(constants) => constants.expansion != [0.0; 3],
+        }
+    }
+
     /// Strain of one kelvin in the order xx, yy, zz, yz, xz, xy.
     pub(crate) fn free_strain(&self, position: Vector3<f64>) -> [f64; 6] {
         match &self.orthotropic {

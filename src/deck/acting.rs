@@ -90,11 +90,8 @@ impl Stock<'_, '_> {
             Slot::Pressure((cell, _)) => (of_cell[cell], Kind::Pressure),
             Slot::Weight(cell, axis) => (of_cell[cell], Kind::Weight(axis)),
             Slot::Spin(cell, line) => (of_cell[cell], Kind::Spin(line)),
-            Slot::Motion(..)
-            | Slot::Wrench(..)
-            | Slot::Shortening(_)
-            | Slot::Preload(_)
-            | Slot::Lock(_) => return None,
+            // Of rigid groups and bolts, and what the sums hold no more.
+            _ => return None,
         })
     }
 

@@ -51,9 +51,11 @@ const FAMILIES: [&[&str]; 4] = [
 
 fn family(slot: Slot) -> usize {
     match slot {
-        Slot::Held(..) | Slot::Motion(..) | Slot::Shortening(_) => 0,
-        Slot::Force(..) | Slot::Wrench(..) | Slot::Preload(_) => 1,
-        Slot::Pressure(_) | Slot::Weight(..) | Slot::Spin(..) => 2,
+        Slot::Held(..) | Slot::Motion(..) | Slot::OwnMotion(..) | Slot::Shortening(_) => 0,
+        Slot::Force(..) | Slot::OwnForce(..) | Slot::Wrench(..) | Slot::OwnWrench(..) => 1,
+        Slot::Preload(_) => 1,
+        Slot::Pressure(_) | Slot::SurfacePressure(_) => 2,
+        Slot::Weight(..) | Slot::Gravity(..) | Slot::Spin(..) => 2,
         Slot::Heat(_) => 3,
         // Once locked, always: no keyword ends it.
         Slot::Lock(_) => FAMILIES.len(),
@@ -91,6 +93,7 @@ impl History {
         for (number, step) in (1..).zip(&statement.steps) {
             walk.step(number, step, notes)?;
         }
+        walk.history.values = walk.reader.sums(walk.history.values)?;
         Ok(walk.history)
     }
 }
@@ -160,6 +163,7 @@ impl Walk<'_, '_> {
         let card = stated.1;
         let amplitude = self.amplitude(card)?;
         for (slot, given) in self.reader.read(stated, notes)? {
+            self.end_other_spins(slot, step, at_once);
             let entry = self.entries.entry(slot).or_insert(Entry {
                 stated: 0.0,
                 amplitude: amplitude.clone(),
@@ -168,19 +172,34 @@ impl Walk<'_, '_> {
                 step: usize::MAX,
             });
             let again = entry.step == step;
-            let scaled = entry.stated != 0.0 || given != 0.0;
+            // Loads of one step add up; supports say the same twice; of temperatures the last one counts.
+            let adds = again && [1, 2].contains(&family(slot));
+            if adds && given == 0.0 {
+                continue;
+            }
+            let beside = if adds { entry.start } else { given };
+            let scaled = entry.stated != 0.0 || beside != 0.0;
             let other = (scaled && entry.amplitude != amplitude)
                 || (family(slot) == 0 && entry.stated != given);
             if again && other {
                 return Err(card.error("one node or face with two values in one step"));
             }
-            // Loads of one step add up; supports say the same twice; of temperatures the last one counts.
-            let adds = again && [1, 2].contains(&family(slot));
             entry.stated = if adds { entry.stated + given } else { given };
             (entry.at_once, entry.step) = (at_once, step);
             entry.amplitude.clone_from(&amplitude);
         }
         Ok(())
+    }
+
+    /// Ends spins about other axes that were stated before this step: to state one anew changes the axis.
+    fn end_other_spins(&mut self, slot: Slot, step: usize, at_once: bool) {
+        let Slot::Spin(cell, _) = slot else { return };
+        let of_cell = Slot::Spin(cell, [0; 6])..=Slot::Spin(cell, [u64::MAX; 6]);
+        let others = self.entries.range_mut(of_cell);
+        for (_, entry) in others.filter(|(other, entry)| **other != slot && entry.step != step) {
+            (entry.stated, entry.amplitude) = (0.0, None);
+            (entry.at_once, entry.step) = (at_once, step);
+        }
     }
 
     /// The amplitude that a card names, delayed as it says.

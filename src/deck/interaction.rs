@@ -8,6 +8,8 @@
 //!                                         below it layers of compliance 1 / K and 1 / λ
 //! ```
 
+use std::collections::BTreeMap;
+
 use super::statement::Notes;
 use crate::error::Error;
 use crate::mesh_file::abaqus::Card;
@@ -38,6 +40,8 @@ pub(super) struct Interaction<'a, 'c> {
     stiffness: Option<(f64, &'c Card<'a>)>,
     /// Shear stress per displacement before slip, and where it is stated.
     stick: Option<(f64, &'c Card<'a>)>,
+    /// Shear stress that friction does not exceed, and where it is stated.
+    cap: Option<(f64, &'c Card<'a>)>,
     /// Whether nothing slips while it is pressed.
     rough: bool,
 }
@@ -65,8 +69,15 @@ pub(super) fn read_law<'a, 'c>(
         }
         "FRICTION" => {
             let law = laws.last_mut().ok_or_else(orphan)?;
-            card.only(&["SLIPTOLERANCE", "ELASTICSLIP", "LAGRANGE", "ROUGH"])?;
+            card.only(&[
+                "SLIPTOLERANCE",
+                "ELASTICSLIP",
+                "LAGRANGE",
+                "ROUGH",
+                "TAUMAX",
+            ])?;
             law.rough = card.get("ROUGH").is_some();
+            law.cap = cap(card)?.map(|cap| (cap, card));
             if !law.rough {
                 let (friction, stick) = friction(card)?;
                 (law.friction, law.stick) = (friction, stick.map(|of| (of, card)));
@@ -119,6 +130,17 @@ fn normal(card: &Card<'_>, notes: &mut Notes) -> Result<(Normal, Option<f64>), E
     }
 }
 
+/// The shear stress that friction does not exceed.
+fn cap(card: &Card<'_>) -> Result<Option<f64>, Error> {
+    let Some(word) = card.get("TAUMAX") else {
+        return Ok(None);
+    };
+    match card.head(0).number_of(word, "a shear stress")? {
+        cap if cap > 0.0 => Ok(Some(cap)),
+        cap => Err(card.error(format!("`TAUMAX={cap}`; expected one above 0"))),
+    }
+}
+
 /// Coefficient of friction and stick slope.
 fn friction(card: &Card<'_>) -> Result<(f64, Option<f64>), Error> {
     let row = card.row("the coefficient of friction, one for all pressures")?;
@@ -150,6 +172,7 @@ impl Interaction<'_, '_> {
             friction: 0.0,
             stiffness: None,
             stick: None,
+            cap: None,
             rough: false,
         }
     }
@@ -177,10 +200,20 @@ impl Interaction<'_, '_> {
         };
         contact.compliance = (compliance != SceneCompliance::default()).then_some(compliance);
         let friction = self.friction;
-        contact.law = match self.normal {
-            Normal::Tied => Some(SceneLaw::Bonded),
-            Normal::NoSeparation => Some(SceneLaw::NoSeparation { friction }),
+        contact.law = match (self.normal, self.cap) {
+            (Normal::Tied, None) => Some(SceneLaw::Bonded),
+            (Normal::NoSeparation, None) => Some(SceneLaw::NoSeparation { friction }),
+            (Normal::Tied | Normal::NoSeparation, Some((_, card))) => {
+                return Err(card.error("`TAUMAX` of surfaces that do not part is not read"));
+            }
             _ if self.rough => Some(SceneLaw::Rough),
+            (_, Some((cap, _))) => Some(SceneLaw::Coulomb {
+                friction: Some(friction),
+                regions: BTreeMap::new(),
+                table: None,
+                shear_cap: Some(cap),
+                static_friction: None,
+            }),
             _ => None,
         };
         contact.friction = contact.law.is_none().then_some(friction);

@@ -9,27 +9,37 @@ use super::rigid::RigidGroups;
 use super::statement::{Notes, Stated};
 use super::transform::Transforms;
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Contents, Row, Side, Space, bare};
+use crate::mesh_file::abaqus::{Contents, Row, Side, bare};
 
 /// What a number is given for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Slot {
     /// Displacement of a node along an axis: a global one, or from 3 on those of the transforms, three of each.
     Held(usize, usize),
-    /// Force on a node along an axis.
+    /// Force on a node along a global axis.
     Force(usize, usize),
-    /// Pressure on a face.
+    /// Force on a node along an axis of its own.
+    OwnForce(usize, usize),
+    /// Pressure on a face of an element.
     Pressure(Side),
+    /// Pressure on a face of a surface.
+    SurfacePressure(Side),
     /// Force per volume of an element along an axis.
     Weight(usize, usize),
+    /// The same of gravity, always with all axes.
+    Gravity(usize, usize),
     /// Square of the angular velocity of an element, about a line through two points, of which these are the bits.
     Spin(usize, [u64; 6]),
     /// Rise of the temperature of a node.
     Heat(usize),
     /// Displacement or, from 3 on, rotation of a rigid group.
     Motion(usize, usize),
+    /// The same along an axis of a reference node's own.
+    OwnMotion(usize, usize),
     /// Force on a rigid group or, from 3 on, moment.
     Wrench(usize, usize),
+    /// The same along an axis of a reference node's own.
+    OwnWrench(usize, usize),
     /// How much shorter a bolt is made.
     Shortening(usize),
     /// Force that a bolt carries.
@@ -86,13 +96,13 @@ impl Reader<'_> {
                 "CLOAD" => self.forces(row, notes)?,
                 "DSLOAD" => self.surface_pressure(row)?,
                 "TEMPERATURE" => self.heat(row, notes)?,
-                _ => self.distributed(row)?,
+                _ => self.distributed(row, notes)?,
             });
         }
         Ok(given)
     }
 
-    fn dimension(&self) -> usize {
+    pub(super) fn dimension(&self) -> usize {
         if self.parts.plane() { 2 } else { 3 }
     }
 
@@ -135,6 +145,9 @@ impl Reader<'_> {
         }
         let mut given = Vec::new();
         for node in nodes {
+            if self.rigid.of(node).is_some() {
+                self.check_axes(row, node)?;
+            }
             let axes = (0..6).filter(|&axis| axes[axis]);
             let slots = axes.filter_map(|axis| self.support(node, axis));
             given.extend(slots.map(|slot| (slot, value)));
@@ -149,7 +162,10 @@ impl Reader<'_> {
         }
         if let Some((group, turns)) = self.rigid.of(node) {
             let component = self.component(turns, axis)?;
-            return Some(Slot::Motion(group, component));
+            return Some(match self.transforms.of(node) {
+                None => Slot::Motion(group, component),
+                Some(_) => Slot::OwnMotion(node, component),
+            });
         }
         let own = self.transforms.of(node).map_or(0, |at| 3 * (1 + at));
         (axis < self.dimension()).then_some(Slot::Held(node, own + axis))
@@ -177,29 +193,36 @@ impl Reader<'_> {
                 given.extend((axis == 0).then_some((Slot::Preload(section), force)));
                 continue;
             }
+            let own = self.transforms.of(node).is_some();
+            self.check_axes(row, node)?;
             if let Some((group, turns)) = self.rigid.of(node) {
-                let component = self.component(turns, axis);
                 let force = force / depth(self.rigid.groups[group].part);
-                given.extend(component.map(|at| (Slot::Wrench(group, at), force)));
+                let slot = |at: usize| match own {
+                    true => Slot::OwnWrench(node, at),
+                    false => Slot::Wrench(group, at),
+                };
+                given.extend(self.component(turns, axis).map(|at| (slot(at), force)));
                 continue;
             }
             let (true, Some(part)) = (axis < self.dimension(), self.parts.of_node[node]) else {
                 continue;
             };
-            let position = self.contents.positions[node];
-            let direction = self
-                .transforms
-                .direction(node, position, axis)
-                .ok_or_else(|| {
-                    row.error(
-                        "a node on the line that its axes turn around; expected one away from it",
-                    )
-                })?;
-            let along = direction.into_iter().take(self.dimension()).enumerate();
-            let along = along.filter(|(_, n)| *n != 0.0);
-            given.extend(along.map(|(axis, n)| (Slot::Force(node, axis), n * force / depth(part))));
+            let slot = match own {
+                true => Slot::OwnForce(node, axis),
+                false => Slot::Force(node, axis),
+            };
+            given.push((slot, force / depth(part)));
         }
         Ok(given)
+    }
+
+    /// Refuses a node where axes of its own have no direction.
+    fn check_axes(&self, row: Row<'_, '_>, node: usize) -> Result<(), Error> {
+        let direction = self
+            .transforms
+            .direction(node, self.contents.positions[node], 0);
+        let reason = "a node on the line that its axes turn around; expected one away from it";
+        direction.map(|_| ()).ok_or_else(|| row.error(reason))
     }
 
     /// Rises of temperature.
@@ -217,107 +240,6 @@ impl Reader<'_> {
         }
         let rise = |node: usize| (Slot::Heat(node), value - self.initial[node]);
         Ok(nodes.into_iter().map(rise).collect())
-    }
-
-    fn surface_pressure(&self, row: Row<'_, '_>) -> Result<Vec<Given>, Error> {
-        let label = bare(row.word(1));
-        if label != "P" {
-            return Err(row.error(format!("load `{label}` is not read; accepted: P")));
-        }
-        let sides = self.contents.surface(row, row.word(0))?;
-        let pressure = row.number(2, "a pressure", None)?;
-        Ok(sides
-            .1
-            .iter()
-            .map(|&side| (Slot::Pressure(side), pressure))
-            .collect())
-    }
-
-    /// Pressure on faces, weight, force per volume.
-    fn distributed(&self, row: Row<'_, '_>) -> Result<Vec<Given>, Error> {
-        let cells = self.contents.cells.members(row, row.word(0))?;
-        let label = bare(row.word(1));
-        let value = row.number(2, "a load", None)?;
-        let along = |axis: usize| {
-            Ok(cells
-                .iter()
-                .map(|&c| (Slot::Weight(c, axis), value))
-                .collect())
-        };
-        match label.as_str() {
-            "BX" => along(0),
-            "BY" => along(1),
-            "BZ" if self.dimension() == 3 => along(2),
-            "GRAV" => self.weight(row, &cells, value),
-            "CENTRIF" => self.spin(row, &cells, value),
-            _ if label.len() == 2 && label.starts_with('P') => cells
-                .into_iter()
-                .map(|cell| {
-                    let side = self.contents.side(cell, &label, 'P', &self.outer);
-                    Ok((Slot::Pressure(side.map_err(|e| row.error(e))?), value))
-                })
-                .collect(),
-            _ => Err(row.error(format!(
-                "load `{label}` is not read; accepted: P1 to P6, GRAV, CENTRIF, BX, BY, BZ"
-            ))),
-        }
-    }
-
-    fn weight(&self, row: Row<'_, '_>, cells: &[usize], gravity: f64) -> Result<Vec<Given>, Error> {
-        let mut direction = [0.0; 3];
-        for (axis, component) in direction.iter_mut().enumerate() {
-            *component = row.number(3 + axis, "a direction", 0.0)?;
-        }
-        let length = direction.iter().fold(0.0_f64, |sum, x| sum.hypot(*x));
-        if (length - 1.0).abs() > 1e-6 {
-            let reason = format!("direction of length {length}; expected one of length 1");
-            return Err(row.error(reason));
-        }
-        let mut given = Vec::new();
-        for &cell in cells {
-            let density = self.density(row, cell)?;
-            let axes = direction.iter().take(self.dimension()).enumerate();
-            let axes = axes.filter(|(_, component)| **component != 0.0);
-            given.extend(axes.map(|(axis, n)| (Slot::Weight(cell, axis), density * gravity * n)));
-        }
-        Ok(given)
-    }
-
-    fn density(&self, row: Row<'_, '_>, cell: usize) -> Result<f64, Error> {
-        let material = self.materials.of(cell);
-        let missing = || row.error(format!("material `{}` has no *DENSITY", material.name));
-        material.density.ok_or_else(missing)
-    }
-
-    /// Square of an angular velocity, a point of the axis, its direction.
-    fn spin(&self, row: Row<'_, '_>, cells: &[usize], squared: f64) -> Result<Vec<Given>, Error> {
-        let mut line = [0.0; 6];
-        for (at, number) in line.iter_mut().enumerate() {
-            *number = row.number(3 + at, "a coordinate", 0.0)?;
-        }
-        let [x, _, _, a, b, c] = line;
-        if squared < 0.0 || [a, b, c] == [0.0; 3] {
-            let reason = "expected the square of an angular velocity from 0, a point and a direction of the axis";
-            return Err(row.error(reason));
-        }
-        let astray = match self.parts.parts.first().map(|part| part.space) {
-            Some(Space::Solid) | None => None,
-            Some(Space::Axisymmetric) => {
-                (x != 0.0 || a != 0.0 || c != 0.0).then_some("the y axis, of which these are rings")
-            }
-            Some(_) => (a != 0.0 || b != 0.0).then_some("an axis along z, across the plane"),
-        };
-        if let Some(accepted) = astray {
-            return Err(row.error(format!("another axis; expected {accepted}")));
-        }
-        for &cell in cells {
-            self.density(row, cell)?;
-        }
-        let line = line.map(|x| (x + 0.0).to_bits());
-        Ok(cells
-            .iter()
-            .map(|&cell| (Slot::Spin(cell, line), squared))
-            .collect())
     }
 }
 

@@ -7,22 +7,23 @@
 //! interaction, pair  laws, and the surfaces that obey them; adjust   slave nodes moved onto the master
 //! transform, rigid, cyclic          directions of nodes, nodes that move as one, sectors that repeat
 //! pre_tension, bolt                 bolts under preload
-//! load, amplitude    what a card gives;            history  what holds at every instant
+//! load, distributed, amplitude      what a card gives
+//! history, sum       what holds at every instant;  what loads add up to, in global axes
 //! acting, assemble   the scene
 //! ```
 //!
 //! | read | how |
 //! |---|---|
-//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; every connected part is a body, with incompatible modes if an element of it has them (C3D8I, CPE4I) |
+//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; linear ones folded up to a triangle, wedge, pyramid or tetrahedron are one; every connected part is a body, with incompatible modes if an element of it has them (C3D8I, CPE4I) |
 //! | `*SURFACE` | by faces, by elements (all outer faces), by nodes (outer faces whose corners are all in the set) |
 //! | `*MATERIAL`, `*ELASTIC`, `*DENSITY`, `*EXPANSION`, `*ORIENTATION`, `*SOLID SECTION` | isotropic, by engineering constants, or orthotropic; a thickness is that of plane stress, and what forces of plane strain are divided by |
-//! | `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*SURFACE BEHAVIOR`, `*FRICTION` | contact with friction, slave first; a penalty or a stick slope from 100 E / h of the cells there on is left out, a softer one kept as a layer (exponential ones are left out with a note, and refused below 10 E / h); TIED (with a stick slope), NO SEPARATION, ROUGH |
+//! | `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*SURFACE BEHAVIOR`, `*FRICTION` | contact with friction, slave first; a penalty or a stick slope from 100 E / h of the cells there on is left out, a softer one kept as a layer (exponential ones are left out with a note, and refused below 10 E / h); `TAUMAX`, TIED (with a stick slope), NO SEPARATION, ROUGH |
 //! | `*TIE` | slave faces that are near enough are moved onto the master and one with it |
 //! | `ADJUST=`, `*CLEARANCE` | slave nodes that overlap, or are near, or of a set, are moved onto the master surface; a distance in place of none that is drawn |
 //! | `*MODEL CHANGE` of pairs | in the steps in which they are taken out their gap is ten times the size of the deck |
-//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, CENTRIF, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, ramp, end with `OP=NEW`; supports stay |
+//! | `*BOUNDARY`, `*CLOAD`, `*DLOAD` (P1 to P6, GRAV, CENTRIF, BX, BY, BZ), `*DSLOAD` (P), `*AMPLITUDE` | persist from step to step, each type of load by itself, ramp, end with `OP=NEW`; supports stay; without a set on the whole model |
 //! | `*INITIAL CONDITIONS, TYPE=TEMPERATURE`, `*TEMPERATURE` | the rise strains by the expansion |
-//! | `*TRANSFORM` | of supports and forces, straight or around a line |
+//! | `*TRANSFORM` | of supports and forces, straight or around a line; a reference node is held along global axes, or along all three of its own |
 //! | `*RIGID BODY`, `*COUPLING` with `*KINEMATIC` of all directions | nodes of one part move as a rigid body, by what is stated at the reference node in one history |
 //! | `*TIE, CYCLIC SYMMETRY`, `*CYCLIC SYMMETRY MODEL` | faces that turn onto each other node by node move as one |
 //! | `*PRE-TENSION SECTION` of solid elements | a bolt, cut along a plane: at its reference node `*CLOAD` is the force, `*BOUNDARY` the shortening, `*BOUNDARY, FIXED` in a later step the lock |
@@ -62,6 +63,7 @@ mod amplitude;
 mod assemble;
 mod bolt;
 mod cyclic;
+mod distributed;
 mod elastic;
 mod history;
 mod interaction;
@@ -74,6 +76,7 @@ mod pre_tension;
 mod rigid;
 
 mod statement;
+mod sum;
 mod transform;
 
 use std::path::Path;

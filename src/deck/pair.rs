@@ -8,6 +8,21 @@ use crate::mesh_file::abaqus::{Card, Contents, bare};
 /// Part of the size of a slave face within which a `*TIE` holds that states no tolerance.
 const TIE: f64 = 0.025;
 
+/// Parameters of a `*CONTACT PAIR` that steer how contact is looked for and solved, or are about shells.
+const STEERING: [&str; 8] = [
+    "TRACKING",
+    "NOTHICKNESS",
+    "EXTENSIONZONE",
+    "SMOOTH",
+    "GEOMETRICCORRECTION",
+    "MECHANICALCONSTRAINT",
+    "SUPPLEMENTARYCONSTRAINTS",
+    "CPSET",
+];
+
+/// What a row of surfaces is to be.
+const TWO: &str = "expected slave and master surface; one that touches itself is read in scenes only, as `against_itself`";
+
 /// Which slave nodes are moved onto the master surface before anything.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Adjust {
@@ -59,7 +74,7 @@ impl<'a, 'c> Contacts<'a, 'c> {
             match card.name.as_str() {
                 "CONTACTPAIR" => contacts.read_pairs(scope, card, contents, notes)?,
                 "TIE" if card.get("CYCLICSYMMETRY").is_none() => {
-                    contacts.read_tie(scope, card, contents)?;
+                    contacts.read_tie(scope, card, contents, notes)?;
                 }
                 _ => {}
             }
@@ -87,7 +102,8 @@ impl<'a, 'c> Contacts<'a, 'c> {
         contents: &Contents,
         notes: &mut Notes,
     ) -> Result<(), Error> {
-        card.only(&["INTERACTION", "TYPE", "ADJUST", "SMALLSLIDING", "TIED"])?;
+        let read = ["INTERACTION", "TYPE", "ADJUST", "SMALLSLIDING", "TIED"];
+        notes.only(card, &read, &STEERING)?;
         let kinds = [
             "SURFACETOSURFACE",
             "NODETOSURFACE",
@@ -126,8 +142,10 @@ impl<'a, 'c> Contacts<'a, 'c> {
         scope: usize,
         card: &'c Card<'a>,
         contents: &Contents,
+        notes: &mut Notes,
     ) -> Result<(), Error> {
-        card.only(&["NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE"])?;
+        let read = ["NAME", "POSITIONTOLERANCE", "ADJUST", "TYPE"];
+        notes.only(card, &read, &["NOROTATION", "NOTHICKNESS"])?;
         card.one_of("ADJUST", &["YES", "NO"])?;
         card.one_of("TYPE", &["SURFACETOSURFACE", "NODETOSURFACE"])?;
         let interaction = self.glue();
@@ -252,8 +270,11 @@ fn surfaces(scope: usize, card: &Card<'_>, contents: &Contents) -> Result<Vec<[S
     for row in card.rows(scope) {
         let words: Vec<String> = row.words().map(bare).collect();
         let [slave, master] = &words[..] else {
-            return Err(row.error("expected slave and master surface"));
+            return Err(row.error(TWO));
         };
+        if slave == master {
+            return Err(row.error(TWO));
+        }
         let surface = |name| Ok(contents.surface(row, name)?.0.clone());
         found.push([surface(slave)?, surface(master)?]);
     }

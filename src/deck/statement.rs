@@ -99,6 +99,21 @@ impl Notes {
             self.lines.push(format!("{} {words}", card.place()));
         }
     }
+
+    /// Refuses every parameter but those that are read and those that steer a method, which are noted.
+    pub(super) fn only(
+        &mut self,
+        card: &Card<'_>,
+        read: &[&str],
+        steering: &[&str],
+    ) -> Result<(), Error> {
+        let all: Vec<&str> = read.iter().chain(steering).copied().collect();
+        card.only(&all)?;
+        for key in steering.iter().filter(|key| card.get(key).is_some()) {
+            self.add(card, &format!("`{key}` is not needed here"));
+        }
+        Ok(())
+    }
 }
 
 impl<'a, 'c> Statement<'a, 'c> {
@@ -151,15 +166,12 @@ impl<'a, 'c> Statement<'a, 'c> {
         inside: &[Stated<'a, 'c>],
         notes: &mut Notes,
     ) -> Result<(), Error> {
-        card.only(&[
-            "NLGEOM",
-            "INC",
-            "NAME",
-            "PERTURBATION",
-            "AMPLITUDE",
-            "UNSYMM",
-            "EXTRAPOLATION",
-        ])?;
+        let read = ["NLGEOM", "INC", "NAME", "PERTURBATION", "AMPLITUDE"];
+        notes.only(
+            card,
+            &read,
+            &["UNSYMM", "EXTRAPOLATION", "CONVERTSDI", "SOLVER"],
+        )?;
         if let Some((_, frequency)) = inside.iter().find(|(_, card)| card.name == "FREQUENCY") {
             notes.add(
                 frequency,

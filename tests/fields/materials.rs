@@ -103,6 +103,37 @@ fn every_way_to_say_a_direction_is_solved() {
     }
 }
 
+#[test]
+fn a_cube_with_directions_that_cannot_expand_presses_by_its_modulus_along_the_way() {
+    // Free aside: N = E_z α_z T A, whatever the constants across.
+    let ortho = json!({"orthotropic": {"young": [100, 200, 1000], "poisson": [0.2, 0.1, 0.15],
+        "shear": [60, 70, 80], "expansion": [4e-3, 5e-3, 1e-3]}});
+    let along = fibres(
+        json!([0, 0, 1]),
+        json!({"expansion_along": 1e-3, "expansion_across": 5e-3}),
+    );
+    for (material, young) in [(ortho, 1000.0), (along, 140e3)] {
+        let hot = json!({"bodies": [{
+            "mesh": {"box": {"x": [0, 1], "y": [0, 1], "z": [0, 1], "cells": [2, 2, 2]}},
+            "materials": [material],
+            "supports": [{"group": "top", "displacement": [null, null, 0]},
+                {"at": [0, 0, 1], "displacement": [0, 0, null]}, {"at": [1, 0, 1], "displacement": [null, 0, null]}],
+            "loads": [{"temperature": 2}]}],
+            "contacts": [{"group": "bottom", "friction": 0,
+                "obstacle": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}}]});
+        let totals = certified(&read(&hot)).1.totals;
+        assert!(
+            (totals.normal / (young * 2e-3) - 1.0).abs() < 1e-9,
+            "{}",
+            totals.normal
+        );
+        let mut cold = hot;
+        cold["bodies"][0]["materials"] = json!([wood(Value::Null)]);
+        let said = read(&cold).mechanics().map(|_| ()).unwrap_err().to_string();
+        assert!(said.contains("materials without `expansion`"), "{said}");
+    }
+}
+
 /// What is said of a material.
 fn refusal(material: Value, model: Option<&str>) -> String {
     let scene = block(material, model).to_string();

@@ -13,6 +13,7 @@ mod checked_scenes;
 mod command_line;
 mod damaged_mesh;
 mod deck_keywords;
+mod deck_loads;
 mod decks;
 mod hostile_input;
 mod manners;

@@ -350,6 +350,36 @@ fn an_orthotropic_block_is_held_back_aside_of_its_way() {
 }
 
 #[test]
+fn an_orthotropic_block_is_held_by_what_friction_bears_across() {
+    // Statics: N = 32, T = (−4, 2); along (2, 1)/√5 that is 6/√5 < 0.1 N, across 8/√5 = 3.6, more than 0.1 N.
+    let lower = block(CellKind::Hex8, [0.0; 3], [2.0, 2.0, 1.0], [2, 2, 1]);
+    let upper = block(CellKind::Hex8, [0.0, 0.0, 1.0], [2.0; 3], [3, 3, 1]);
+    let mut low = body("low", lower, 1000.0, 0.25);
+    for axis in 0..3 {
+        low = hold(low, "bottom", axis, 0.0);
+    }
+    let mut up = body("up", upper, 1000.0, 0.25);
+    up.loads = vec![
+        SceneLoad::pressure("top", 8.0),
+        SceneLoad::Traction {
+            traction: vec![1.0, -0.5, 0.0],
+            group: "top".into(),
+        },
+    ];
+    let law = SceneLaw::Orthotropic {
+        friction: [0.1, 0.4],
+        direction: vec![2.0, 1.0, 0.0],
+        shear_cap: None,
+    };
+    let contact = contact(["up", "bottom"], ["low", "top"], 0.0).with_law(law);
+    let totals = certified(&scene(vec![low, up], vec![contact])).1.totals;
+    for (found, expected) in totals.friction.iter().zip([-4.0, 2.0]) {
+        assert!((found - expected).abs() < 1e-9, "{:?}", totals.friction);
+    }
+    assert!((totals.normal - 32.0).abs() < 1e-9);
+}
+
+#[test]
 fn what_a_law_does_over_steps_is_accounted_for() {
     // Pressed into a layer and let go again: all the work comes back.
     let mut scene = moved(SceneLaw::Rough, 1000.0, [0.0, -0.01]);

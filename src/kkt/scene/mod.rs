@@ -234,9 +234,12 @@ impl SceneGeometry {
             fit.force = Measure::new(value, explained, at);
             let [value, explained] = forces.moment_defect(part, state.body.model);
             fit.moment = Measure::new(value, explained, at);
-            let friction = seats
-                .iter()
-                .map(|seat| state.problem.friction()[seat.contact]);
+            let laws = state.problem.laws().unwrap_or_default();
+            let friction = seats.iter().map(|seat| {
+                let ellipse = laws.get(seat.contact).and_then(|law| law.ellipse);
+                let widest = ellipse.map_or(1.0, |ellipse| ellipse.ratio.max(1.0));
+                state.problem.friction()[seat.contact] * widest
+            });
             let faces = seats.iter().zip(&pressed).filter(|(_, pressed)| **pressed);
             let touching = Touching {
                 meeting,
@@ -245,7 +248,6 @@ impl SceneGeometry {
                 friction: friction.fold(0.0, f64::max),
                 supported: &self.supported,
             };
-            let laws = state.problem.laws().unwrap_or_default();
             let mut laws = seats.iter().filter_map(|seat| laws.get(seat.contact));
             let within = laws.all(Law::is_within_coulomb);
             if within && state.body.model != crate::body::Model::Axisymmetric {

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! with rays `r_k` of the friction cone at the samples around pressed contacts: in space those of an octagon
-//! around the disc. No pressure has its resultant beyond the end of what it acts on: a block whose weight
-//! lies beyond the edge of what it stands on topples. At a node that a support holds, what goes along the support
+//! around the disc, and that around the ellipse where friction differs along and across. No pressure has its resultant
+//! beyond the end of what it acts on: a block whose weight lies beyond the edge of what it stands on topples. At a node that a support holds, what goes along the support
 //! counts either way: on a plane of symmetry facets lean out of the plane, and their mirror images lean back.
 
 use nalgebra::{Vector3, Vector6};
@@ -30,6 +30,7 @@ pub(super) struct Touching<'a> {
     pub(super) side: usize,
     /// Its faces around pressed contacts, which may be named several times.
     pub(super) faces: Vec<usize>,
+    /// Largest coefficient along any direction.
     pub(super) friction: f64,
     pub(super) supported: &'a Supported,
 }
