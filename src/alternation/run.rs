@@ -32,6 +32,9 @@ const NEWTON_STEPS: (usize, usize) = (12, 3);
 /// Sweeps without a better state after which the solve gives up.
 const PATIENCE: usize = 3;
 
+/// Unknowns beyond which programs of half-steps are not kept.
+const LARGE: usize = 1024;
+
 /// A residual below this many times what round-off may leave is round-off.
 const ROUNDED: f64 = 4.0;
 
@@ -242,6 +245,11 @@ impl<'a> Run<'a> {
 
     /// Newton steps from the iterate, which moves only to a state of smaller residual.
     pub(super) fn newton_finish(&mut self) {
+        if self.problem.unknowns() > LARGE {
+            // As large as a Newton matrix, and hardly ever asked for again.
+            self.normal.forget();
+            self.friction.forget();
+        }
         self.newton_steps(None);
     }
 

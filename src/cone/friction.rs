@@ -34,6 +34,11 @@ impl<'a> FrictionHalfStep<'a> {
         }
     }
 
+    /// Gives up what is kept of the last program for the next one.
+    pub(crate) fn forget(&mut self) {
+        self.set.forget();
+    }
+
     /// Replaces the tangential part of `reaction` by the minimiser of (H2).
     ///
     /// `roles` is the prediction, one entry per contact; a contact whose disc is a

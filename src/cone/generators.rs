@@ -18,7 +18,7 @@
 use faer::{Mat, MatRef};
 
 use super::clarabel::ConeSizes;
-use crate::problem::{ContactProblem, Limits};
+use crate::problem::ContactProblem;
 
 /// The map T over all contacts, with what bounds its `z`: `rows z + s = right`, s in the cones.
 #[derive(Clone, Debug)]
@@ -34,11 +34,10 @@ pub(super) struct Generators {
 /// A column of T: at most two entries, `(unknown of t, factor)`; one alone is padded with zero.
 type Ray = [(usize, f64); 2];
 
-/// `‖t_T‖` of a contact is bounded, by rays of its own or by all that it has.
+/// `‖t_T‖` of a contact is bounded: that of some rays, or of all that it has.
 struct Disc {
-    rays: Vec<usize>,
-    /// Per ray, the entry of `t_T` and its factor.
-    entries: Vec<(usize, f64)>,
+    /// Ray, axis of the tangents and factor.
+    parts: Vec<(usize, usize, f64)>,
     tangents: usize,
     radius: f64,
 }
@@ -75,8 +74,9 @@ impl Generators {
             rows.resize(rays.len(), Vec::new());
             for disc in discs {
                 let first = right.len();
-                let own = disc.rays.iter().zip(&disc.entries);
-                own.for_each(|(&z, (axis, factor))| rows[z].push((first + 1 + axis, -factor)));
+                for (z, axis, factor) in disc.parts {
+                    rows[z].push((first + 1 + axis, -factor));
+                }
                 right.push(disc.radius);
                 right.resize(first + 1 + disc.tangents, 0.0);
                 second_order.push(1 + disc.tangents);
@@ -155,54 +155,45 @@ impl Generators {
     }
 }
 
-/// Discs of (H9), with rays that are added for those without pressure and for tangents without a bound.
+/// Discs of (H9), with rays that are added for friction without pressure and for tangents without a bound.
 fn discs(problem: &ContactProblem, scale: &[f64], rays: &mut Vec<Ray>) -> Vec<Disc> {
-    let of_friction = rays.clone();
-    let (mut own, mut capped) = (Vec::new(), Vec::new());
+    let of_cones = rays.clone();
+    let (mut added, mut capped) = (Vec::new(), Vec::new());
     for (block, (contact, &c)) in problem.blocks().zip(scale.iter().enumerate()) {
-        let Limits {
-            friction,
-            shear,
-            cap,
-            ..
-        } = problem.limits(contact);
-        let tangents = block.start + 1..block.end;
-        let first = rays.len();
-        if shear > 0.0 || friction.is_infinite() {
+        let limits = problem.limits(contact);
+        let (tangents, first) = (block.start + 1..block.end, rays.len());
+        if limits.shear > 0.0 || limits.friction.is_infinite() {
             rays.extend(tangents.clone().map(|t| [(t, c), (t, 0.0)]));
         }
-        let added = (first..rays.len()).enumerate();
-        let added: Vec<(usize, (usize, f64))> =
-            added.map(|(axis, ray)| (ray, (axis, 1.0))).collect();
-        let disc = |of: &mut Vec<Disc>, of_rays: Vec<(usize, (usize, f64))>, radius: f64| {
-            if radius.is_finite() && !of_rays.is_empty() {
-                let (rays, entries) = of_rays.into_iter().unzip();
-                let (tangents, radius) = (tangents.len(), radius / c);
-                of.push(Disc {
-                    rays,
-                    entries,
-                    tangents,
-                    radius,
-                });
-            }
-        };
-        if cap.is_finite() {
-            let under = of_friction.iter().enumerate().flat_map(|(ray, entries)| {
-                let tangents = tangents.clone();
-                let bounded = entries
+        let own = (first..rays.len()).enumerate();
+        let own: Vec<_> = own.map(|(axis, ray)| (ray, axis, 1.0)).collect();
+        let tangents = tangents.len();
+        if limits.cap.is_finite() && tangents > 0 {
+            let entries = of_cones.iter().enumerate().flat_map(|(ray, entries)| {
+                entries
                     .iter()
-                    .filter(move |(at, factor)| tangents.contains(at) && *factor != 0.0);
-                let start = block.start + 1;
-                bounded.map(move |(at, factor)| (ray, (at - start, factor / c)))
+                    .map(move |(at, factor)| (ray, *at, factor / c))
             });
-            disc(&mut capped, under.chain(added.clone()).collect(), cap);
+            let of_friction = entries.filter_map(|(ray, at, factor)| {
+                let axis = at.checked_sub(block.start + 1)?;
+                (axis < tangents && factor != 0.0).then_some((ray, axis, factor))
+            });
+            capped.push(Disc {
+                parts: of_friction.chain(own.iter().copied()).collect(),
+                tangents,
+                radius: limits.cap / c,
+            });
         }
-        if friction.is_finite() {
-            disc(&mut own, added, shear);
+        if limits.friction.is_finite() && !own.is_empty() {
+            added.push(Disc {
+                parts: own,
+                tangents,
+                radius: limits.shear / c,
+            });
         }
     }
-    own.append(&mut capped);
-    own
+    added.append(&mut capped);
+    added
 }
 
 #[cfg(test)]

@@ -24,6 +24,11 @@ impl<'a> NormalHalfStep<'a> {
         }
     }
 
+    /// Gives up what is kept of the last program for the next one.
+    pub(crate) fn forget(&mut self) {
+        self.set.forget();
+    }
+
     /// Replaces the normal part of `reaction` by the minimiser of (H1).
     ///
     /// `roles` is the prediction, one entry per contact; contacts that break it come

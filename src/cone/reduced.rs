@@ -61,6 +61,11 @@ impl<'a> WorkingSet<'a> {
         }
     }
 
+    /// The next minimisation sets up its own program.
+    pub(super) fn forget(&mut self) {
+        self.held = None;
+    }
+
     /// The unknowns of a contact that the half-step moves.
     pub(super) fn unknowns(&self, contact: usize) -> Range<usize> {
         let Range { start, end } = self.problem.block(contact);

@@ -68,46 +68,18 @@ pub(super) fn turning_edges(
     mirrors: &Mirrors,
 ) -> HashMap<[usize; 2], f64> {
     let faces = Faces::new(mesh, boundary);
-    let corners: usize = faces.corners.iter().map(|corners| corners.len()).sum();
-    let mut ends = vec![[[End::default(); 2]; 4]; faces.corners.len()];
-    for (node, wedges) in faces.wedges() {
-        for (wedges, open) in faces.fans(&wedges) {
-            let fan = faces.fan(node, wedges, open, mirrors);
-            for wedge in &fan.wedges {
-                let end = |other: usize| {
-                    let half_turn = faces.half_turn(fan.normal, node, other);
-                    let goes_on = faces.goes_on(other, &fan);
-                    End {
-                        half_turn: if goes_on { half_turn } else { 0.0 },
-                        open: fan.open,
-                        last: fan.open && !goes_on,
-                    }
-                };
-                let last = faces.corners[wedge.facet].len() - 1;
-                let edge_before = wedge.corner.checked_sub(1).unwrap_or(last);
-                ends[wedge.facet][wedge.corner][0] = end(wedge.after);
-                ends[wedge.facet][edge_before][1] = end(wedge.before);
-            }
-        }
-    }
+    let known = faces.half_turns(mirrors);
     let mut around: HashMap<usize, Vec<Neighbour>> = HashMap::new();
-    for (edge, ends) in faces.edges().zip(ends.iter().flatten()) {
-        let Some([from, to]) = edge else { continue };
-        let half_turns = half_turns(*ends);
-        around.entry(from).or_default().push((to, half_turns[1]));
-        around.entry(to).or_default().push((from, half_turns[0]));
+    for ([from, to], half_turns) in &known {
+        around.entry(*from).or_default().push((*to, half_turns[1]));
+        around.entry(*to).or_default().push((*from, half_turns[0]));
     }
-    let mut turning = HashMap::with_capacity(corners);
-    for (edge, ends) in faces.edges().zip(ends.iter().flatten()) {
-        let Some(edge) = edge else { continue };
-        let ends = half_turns(*ends);
-        if !faces.is_of_an_arc(edge, ends, &around, mirrors) {
-            continue;
-        }
-        let half_turn = smaller(ends);
-        let round = faces.edge(edge[0], edge[1]).norm() * 2.0 * (half_turn / 2.0).tan();
-        if round != 0.0 {
-            turning.insert(edge, round);
+    let mut turning = HashMap::new();
+    for (edge, half_turns) in known {
+        let half_turn = smaller(half_turns);
+        if half_turn != 0.0 && faces.is_of_an_arc(edge, half_turns, &around, mirrors) {
+            let length = faces.edge(edge[0], edge[1]).norm();
+            turning.insert(edge, length * 2.0 * (half_turn / 2.0).tan());
         }
     }
     turning
@@ -145,12 +117,40 @@ impl<'a> Faces<'a> {
         faces
     }
 
-    /// Four edges of every facet in the order of its corners; none for the fourth of a triangle.
-    fn edges(&self) -> impl Iterator<Item = Option<[usize; 2]>> {
-        self.corners.iter().flat_map(|corners| {
-            let next = |at: usize| corners[(at + 1) % corners.len()];
-            (0..4).map(move |at| Some([*corners.get(at)?, next(at)]))
-        })
+    /// The edges of every facet with the half turns at their ends, where they are known.
+    fn half_turns(&self, mirrors: &Mirrors) -> Vec<([usize; 2], [Option<f64>; 2])> {
+        let mut ends = vec![[[End::default(); 2]; 4]; self.corners.len()];
+        for (node, wedges) in self.wedges() {
+            for (wedges, open) in self.fans(&wedges) {
+                let fan = self.fan(node, wedges, open, mirrors);
+                for wedge in &fan.wedges {
+                    let last = self.corners[wedge.facet].len() - 1;
+                    let edge_before = wedge.corner.checked_sub(1).unwrap_or(last);
+                    ends[wedge.facet][wedge.corner][0] = self.end(&fan, wedge.after);
+                    ends[wedge.facet][edge_before][1] = self.end(&fan, wedge.before);
+                }
+            }
+        }
+        let of_facets = self.corners.iter().zip(ends);
+        let edges = of_facets.flat_map(|(corners, ends)| {
+            let next = corners.iter().cycle().skip(1);
+            let edges = corners.iter().zip(next).zip(ends);
+            edges.map(|((from, to), ends)| ([*from, *to], half_turns(ends)))
+        });
+        edges.collect()
+    }
+
+    /// An edge's end at the node of a fan.
+    fn end(&self, fan: &Fan<'_>, other: usize) -> End {
+        let goes_on = self.goes_on(other, fan);
+        End {
+            half_turn: match goes_on {
+                true => self.half_turn(fan.normal, fan.node, other),
+                false => 0.0,
+            },
+            open: fan.open,
+            last: fan.open && !goes_on,
+        }
     }
 
     /// Whether the surface turns alike at three nodes on end along an edge: else these are kinks between faces.
