@@ -14,7 +14,7 @@
 //!
 //! | read | how |
 //! |---|---|
-//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; every connected part is a body, with incompatible modes if an element of it has them (C3D8I, CPE4I) |
+//! | `*NODE`, `*ELEMENT`, `*NSET`, `*ELSET`, `*INCLUDE`, parts and instances | C3D4, C3D5, C3D6, C3D8, C3D10, C3D15, C3D20, and CPE, CPS, CAX of 3, 4, 6, 8 nodes; linear ones folded up to a triangle, wedge, pyramid or tetrahedron are one; every connected part is a body, with incompatible modes if an element of it has them (C3D8I, CPE4I) |
 //! | `*SURFACE` | by faces, by elements (all outer faces), by nodes (outer faces whose corners are all in the set) |
 //! | `*MATERIAL`, `*ELASTIC`, `*DENSITY`, `*EXPANSION`, `*ORIENTATION`, `*SOLID SECTION` | isotropic, by engineering constants, or orthotropic; a thickness is that of plane stress, and what forces of plane strain are divided by |
 //! | `*CONTACT PAIR`, `*SURFACE INTERACTION`, `*SURFACE BEHAVIOR`, `*FRICTION` | contact with friction, slave first; a penalty or a stick slope from 100 E / h of the cells there on is left out, a softer one kept as a layer (exponential ones are left out with a note, and refused below 10 E / h); `TAUMAX`, TIED (with a stick slope), NO SEPARATION, ROUGH |

@@ -177,3 +177,40 @@ fn friction_that_is_capped_gives_no_more_than_its_cap() {
         "{said}"
     );
 }
+
+#[test]
+fn elements_with_a_node_twice_are_the_simpler_cells_that_they_are() {
+    let text = SQUARES
+        .replace(
+            "2, 11, 12, 13, 14\n",
+            "2, 11, 12, 13, 13\n3, 11, 13, 14, 14\n",
+        )
+        .replace("UP, S1", "2, S1")
+        .replace("2, P3, 2.", "3, P2, 2.");
+    assert_squares(&read(&text));
+    for (from, to, said) in [
+        (
+            "3, P2",
+            "3, P3",
+            ":38: *DLOAD: face P3 of element 3 is folded up",
+        ),
+        (
+            "3, P2",
+            "3, P5",
+            ":38: *DLOAD: `P5` is no face of element 3; expected P1 to P4",
+        ),
+        (
+            "12, 13, 13\n",
+            "12, 11, 13\n",
+            ":13: *ELEMENT: element 2 has node 11 twice; expected",
+        ),
+        (
+            "12, 13, 13\n",
+            "13, 12, 12\n",
+            ":13: *ELEMENT: element 2 runs clockwise; expected",
+        ),
+    ] {
+        let error = refused(&text.replace(from, to));
+        assert!(error.contains(&format!("deck.inp{said}")), "{error}");
+    }
+}

@@ -5,20 +5,10 @@ use std::ops::Range;
 
 use super::card::{Card, Row, bare, quote};
 use super::directory::Directory;
-use super::element::{ElementKind, Space};
+use super::element::ElementKind;
 use super::instance::Flat;
+use super::stated::Element;
 use crate::error::Error;
-
-/// An element: its nodes in the order of its cell.
-#[derive(Clone, Debug)]
-pub(crate) struct Element {
-    /// Kind.
-    pub(crate) kind: ElementKind,
-    /// Indices of nodes.
-    pub(crate) nodes: Vec<usize>,
-    /// Its number in the deck.
-    pub(crate) label: u64,
-}
 
 /// An element and the number of its face, from 1.
 pub(crate) type Side = (usize, usize);
@@ -169,24 +159,8 @@ impl Contents {
             .iter()
             .map(node)
             .collect::<Result<Vec<_>, _>>()?;
-        let raised = |node: &&usize| self.positions[**node][2] != 0.0;
-        if let Some(&node) = nodes
-            .iter()
-            .find(raised)
-            .filter(|_| kind.space != Space::Solid)
-        {
-            let z = self.positions[node][2];
-            return Err(format!(
-                "plane element {label} has a node at z = {z}; expected 0"
-            ));
-        }
-        let before = self.cells.number(scope, label, self.elements.len());
-        match before {
-            None => Ok(Element {
-                kind,
-                nodes: kind.cell_nodes(&nodes),
-                label,
-            }),
+        match self.cells.number(scope, label, self.elements.len()) {
+            None => Element::new(kind, numbers, &nodes, &self.positions),
             Some(_) => Err(format!("element {label} is listed twice")),
         }
     }
@@ -328,17 +302,8 @@ impl Contents {
 
     /// The face of an element behind a label, which may be an inner one.
     fn face(&self, cell: usize, label: &str, letter: char) -> Result<Side, String> {
-        let element = &self.elements[cell];
-        let number = label.strip_prefix(letter).and_then(|n| n.parse().ok());
-        let face = number.filter(|&number| element.kind.face(number).is_some());
-        face.map(|face| (cell, face)).ok_or_else(|| {
-            format!(
-                "`{}` is no face of element {}; expected {letter}1 to {letter}{}",
-                quote(label),
-                element.label,
-                element.kind.faces()
-            )
-        })
+        let face = self.elements[cell].stated_face(label, letter)?;
+        Ok((cell, face))
     }
 
     /// The outer faces all of whose corners are in a surface by nodes.

@@ -9,12 +9,14 @@
 //! Formats: Abaqus keywords reference, CalculiX CrunchiX user's manual.
 
 mod card;
+mod collapsed;
 mod contents;
 mod directory;
 mod element;
 mod instance;
 mod lines;
 mod mesh;
+mod stated;
 
 pub(crate) use card::{Card, Row, bare, cards};
 pub(crate) use contents::{Contents, KEYWORDS, Side};
