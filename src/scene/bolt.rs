@@ -1,5 +1,8 @@
 //! Bolts: a shank is cut, and what is between the faces of the cut carries a given force or shortens the bolt.
 
+use std::collections::HashMap;
+
+use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 
 use super::SceneGroup;
@@ -55,6 +58,25 @@ pub struct SceneBolt {
 pub(super) struct Resolved {
     pub(super) pair: ContactPair,
     pub(super) between: RigidBody,
+}
+
+/// Of every node at a cut the direction out of its side, and the place of the bolt.
+pub(super) type Cuts = HashMap<usize, (Vector3<f64>, String)>;
+
+/// The nodes at the cuts of bolts.
+pub(super) fn cuts(bolts: &[Resolved]) -> Cuts {
+    let mut cuts = Cuts::new();
+    for Resolved { pair, between } in bolts {
+        let (Some(cut), Opposite::Surface { facets, .. }) = (&between.cut, &pair.opposite) else {
+            continue;
+        };
+        let out = Vector3::from(cut.towards);
+        for (facets, out) in [(&pair.facets, out), (facets, -out)] {
+            let nodes = facets.iter().flat_map(|facet| &facet.nodes);
+            cuts.extend(nodes.map(|&node| (node, (out, pair.place.clone()))));
+        }
+    }
+    cuts
 }
 
 impl SceneBolt {

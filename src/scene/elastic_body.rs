@@ -225,8 +225,9 @@ impl SceneBody {
             ties.push(tie);
             loads.extend(load);
         }
+        let cuts = bolt::cuts(&bolts);
         for (at, faces) in self.periodic.iter().enumerate() {
-            ties.push(faces.resolve(&format!("{place}.periodic[{at}]"), &mesh, model)?);
+            ties.push(faces.resolve(&format!("{place}.periodic[{at}]"), &mesh, model, &cuts)?);
         }
         let body = Body {
             name: self.name.clone(),

@@ -4,6 +4,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 use serde::{Deserialize, Serialize};
 
 use super::SceneGroup;
+use super::bolt::Cuts;
 use super::field::{finite, line};
 use super::load::wrench;
 use super::local_axes::SceneAxis;
@@ -167,7 +168,14 @@ impl ScenePeriodic {
         }
     }
 
-    pub(super) fn resolve(&self, place: &str, mesh: &Mesh, model: Model) -> Result<Tie, Error> {
+    /// The pairs of nodes; those at the cuts of bolts lie on each other, and move with the side that they belong to.
+    pub(super) fn resolve(
+        &self,
+        place: &str,
+        mesh: &Mesh,
+        model: Model,
+        cuts: &Cuts,
+    ) -> Result<Tie, Error> {
         if model == Model::Axisymmetric {
             return Err(Error::NotAccepted {
                 place: place.to_owned(),
@@ -175,15 +183,14 @@ impl ScenePeriodic {
                 accepted: "none on an axisymmetric body".to_owned(),
             });
         }
-        let (rotation, shift) = self.mapping(place, mesh)?;
-        let map = |x: [f64; 3]| rotation * Vector3::from(x) + shift;
+        let mapping = self.mapping(place, mesh)?;
         let from = selection::nodes(mesh, &format!("{place}.from"), &self.from)?;
         let onto = selection::nodes(mesh, &format!("{place}.onto"), &self.onto)?;
-        let pairs = match_nodes(place, mesh, [&from, &onto], map)?;
+        let pairs = match_nodes(place, mesh, [&from, &onto], (mapping, cuts))?;
         Ok(Tie::Pairs(TiedPairs {
             place: place.to_owned(),
             pairs,
-            rotation: std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)])),
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| mapping.0[(i, j)])),
         }))
     }
 
@@ -223,23 +230,21 @@ fn match_nodes(
     place: &str,
     mesh: &Mesh,
     [from, onto]: [&[usize]; 2],
-    map: impl Fn([f64; 3]) -> Vector3<f64>,
+    ((rotation, shift), cuts): ((Rotation3<f64>, Vector3<f64>), &Cuts),
 ) -> Result<Vec<[usize; 2]>, Error> {
-    if from.len() != onto.len() {
-        return Err(Error::NotAccepted {
-            place: place.to_owned(),
-            found: format!("{} nodes and {} to map them onto", from.len(), onto.len()),
-            accepted: "two faces that are meshed alike".to_owned(),
-        });
-    }
+    check_alike(place, [from, onto], cuts)?;
     let tolerance = AT_NODE * selection::size(mesh);
     let at = |node: usize| Vector3::from(mesh.nodes[node]);
+    let same_side = |node: usize, other: usize| match (cuts.get(&node), cuts.get(&other)) {
+        (Some((out, _)), Some((other, _))) => (rotation * out).dot(other) > 0.0,
+        (own, other) => own.is_none() && other.is_none(),
+    };
     let mut sorted = onto.to_vec();
     sorted.sort_by(|&a, &b| at(a).x.total_cmp(&at(b).x));
     let mut taken = vec![false; sorted.len()];
     let mut pairs = Vec::with_capacity(from.len());
     for &node in from {
-        let image = map(mesh.nodes[node]);
+        let image = rotation * at(node) + shift;
         let start = sorted.partition_point(|&other| at(other).x < image.x - tolerance);
         let near = sorted[start..]
             .iter()
@@ -247,7 +252,7 @@ fn match_nodes(
         let distance = |other: usize| (at(other) - image).norm();
         let near = near
             .enumerate()
-            .filter(|(_, other)| distance(**other) <= tolerance);
+            .filter(|(_, other)| distance(**other) <= tolerance && same_side(node, **other));
         let near = near.map(|(k, &other)| (start + k, other));
         let nearest = near.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1)));
         match nearest {
@@ -255,22 +260,58 @@ fn match_nodes(
                 pairs.push([node, other]);
             }
             _ => {
-                let least = onto
-                    .iter()
-                    .map(|&other| distance(other))
-                    .fold(f64::INFINITY, f64::min);
+                let least = onto.iter().map(|&other| distance(other));
+                let least = least.fold(f64::INFINITY, f64::min);
+                let on_bolt = cuts.get(&node).map(|(_, bolt)| bolt.as_str());
+                let found = unmatched((node, mesh.nodes[node]), image, least, on_bolt);
                 return Err(Error::NotAccepted {
                     place: place.to_owned(),
-                    found: format!(
-                        "node {node} at {:?}, mapped to {:?}, where the nearest node of the other face is {least:e} away \
-                         or has its partner",
-                        mesh.nodes[node],
-                        <[f64; 3]>::from(image)
-                    ),
+                    found,
                     accepted: format!("nodes that match to {tolerance:e}"),
                 });
             }
         }
     }
     Ok(pairs)
+}
+
+/// Refuses faces of other numbers of nodes.
+fn check_alike(place: &str, [from, onto]: [&[usize]; 2], cuts: &Cuts) -> Result<(), Error> {
+    if from.len() == onto.len() {
+        return Ok(());
+    }
+    let mut cut = from.iter().chain(onto).filter_map(|node| cuts.get(node));
+    let by = cut.next().map_or(String::new(), |(_, bolt)| {
+        format!(", those at the cut of {bolt} twice")
+    });
+    Err(Error::NotAccepted {
+        place: place.to_owned(),
+        found: format!(
+            "{} nodes and {} to map them onto{by}",
+            from.len(),
+            onto.len()
+        ),
+        accepted: "two faces that are meshed, and cut by bolts, alike".to_owned(),
+    })
+}
+
+/// What is said of a node that no node of the other face, or none of its own, answers.
+fn unmatched(
+    (node, at): (usize, [f64; 3]),
+    image: Vector3<f64>,
+    least: f64,
+    on_bolt: Option<&str>,
+) -> String {
+    let (by, or) = match on_bolt {
+        Some(bolt) => (
+            format!(" at the cut of {bolt}"),
+            ", or lies on the other side of a cut",
+        ),
+        None => (String::new(), ""),
+    };
+    format!(
+        "node {node}{by} at {at:?}, mapped to {:?}, where the nearest node of the other face is {least:e} away, or has \
+         its partner{or}",
+        <[f64; 3]>::from(image)
+    )
 }

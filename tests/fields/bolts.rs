@@ -5,9 +5,12 @@
 //! F = F₀ + Φ P,   F_K = F₀ − (1 − Φ) P,   Φ = k_S / (k_S + k_P)        until F_K = 0, then F = P
 //! ```
 
-use dpana::body::{CellKind, Facet, Group, Mesh};
+use dpana::body::{CellKind, Facet, Group, Mesh, box_mesh, graded};
 use dpana::report::Report;
-use dpana::scene::{SceneBody, SceneBolt, SceneContact, SceneRigidGroup, SceneSteps, SceneSupport};
+use dpana::scene::{
+    SceneBody, SceneBolt, SceneContact, SceneObstacle, ScenePeriodic, SceneRigidGroup, SceneSteps,
+    SceneSupport,
+};
 use dpana::{Scene, Status, solve_steps};
 use nalgebra::{Rotation3, Vector3};
 
@@ -347,6 +350,26 @@ fn bolts_that_cannot_be_are_refused_with_the_key_and_the_cure() {
         driven(2.0, &[[1.0, 1.0], [3.0, 2.0]]),
         &["steps.factors.bodies[0].bolts[0].force", "locked at 2"],
     );
+}
+
+#[test]
+fn a_bolt_may_reach_faces_that_repeat() {
+    // Without Poisson's effect the block is a spring E A / L = 2000 between floor and ceiling; the sides of the cut lie
+    // on each other where the faces repeat.
+    for kind in [CellKind::Hex8, CellKind::Tet10] {
+        let line = |end: f64| graded(0.0, end, 2, 1.0).unwrap();
+        let mesh = box_mesh(&line(2.0), &line(1.0), &line(1.0), kind).unwrap();
+        let (point, axis) = ([0.0, 0.0, 0.5], [0.0, 0.0, 1.0]);
+        let low = body("block", mesh, 1000.0, 0.0)
+            .with_support(SceneSupport::of("bottom", &[Some(0.0); 3]))
+            .with_periodic(ScenePeriodic::translated("left", "right", &[2.0, 0.0, 0.0]))
+            .with_bolt(SceneBolt::preloaded("B", "body", &point, &axis, -4.0));
+        let ceiling = SceneObstacle::plane(&[0.0, 0.0, 1.0], &[0.0, 0.0, -1.0]);
+        let contact = SceneContact::on(ceiling, "top", 0.2);
+        let report = certified(&scene(vec![low], vec![contact])).1;
+        close(report.totals.pairs[0].totals.normal, 4.0);
+        close(report.bolts[0].shortening, -4.0 / 2000.0);
+    }
 }
 
 #[test]
