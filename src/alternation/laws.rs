@@ -16,6 +16,7 @@ use crate::problem::{ContactProblem, Limits};
 /// A diagonal entry of G below this part of the largest is round-off.
 const NOTHING: f64 = f64::EPSILON;
 
+/// Directions of a contact, normal first.
 pub(super) const UNITS: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// A contact's reaction and its displacement beyond what is free, normal first.

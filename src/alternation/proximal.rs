@@ -53,6 +53,9 @@ const PRODUCTS: f64 = 1e12;
 const STANDS: (f64, usize) = (0.1, 3);
 const FAR: f64 = 1e4;
 
+/// A state that bodies have gone so many times as far to is none: its pressures are rounding of their motion.
+const BEYOND: f64 = 1e8;
+
 impl Run<'_> {
     /// (D6) from the best state.
     pub(super) fn proximal_steps(&mut self) {
@@ -99,7 +102,10 @@ impl Run<'_> {
                 };
             }
             stood = self.stood(stood);
-            if last || (stood.1 >= STANDS.1 && self.give_way(&before, FAR * self.reach())) {
+            if last
+                || (stood.1 >= STANDS.1
+                    && self.give_way(&before, FAR * self.reach(&self.state.reaction)))
+            {
                 break;
             }
         }
@@ -114,9 +120,24 @@ impl Run<'_> {
         (left, if stands { times + 1 } else { 0 })
     }
 
+    /// Whether the best state is one that bodies ran off to.
+    pub(super) fn has_run_off(&self) -> bool {
+        self.problem.floating().is_some_and(|floating| {
+            let modes = floating.modes();
+            let moved = (0..modes.nrows()).map(|row| {
+                let along = self.best.motion.amplitudes.iter().enumerate();
+                along
+                    .map(|(k, amplitude)| modes[(row, k)] * amplitude)
+                    .sum::<f64>()
+            });
+            let farthest = moved.fold(0.0_f64, |most, u| most.max(u.abs()));
+            farthest > BEYOND * self.reach(&self.best.reaction)
+        })
+    }
+
     /// Largest gap, indentation or slip that no motion of whole bodies makes, in metre.
-    fn reach(&self) -> f64 {
-        let displacement = self.problem.displacement(&self.state.reaction);
+    fn reach(&self, reaction: &[f64]) -> f64 {
+        let displacement = self.problem.displacement(reaction);
         let beyond = self.problem.beyond(displacement);
         beyond.iter().fold(0.0, |reach, u| reach.max(u.abs()))
     }

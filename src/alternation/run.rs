@@ -126,7 +126,7 @@ impl<'a> Run<'a> {
 
     /// The judge's residual of the best state is at most the tolerance, and not for want of digits only.
     pub(super) fn is_solved(&self) -> bool {
-        self.is_within() && !self.is_unanswered()
+        self.is_within() && !self.is_unanswered() && !self.has_run_off()
     }
 
     fn is_within(&self) -> bool {

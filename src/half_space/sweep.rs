@@ -16,9 +16,6 @@ const STIFFNESS: f64 = 0.1;
 /// slip carry nears the edge like the inverse square of the shift, to which a tangent tells nothing far away.
 const FARTHEST: f64 = 3.0;
 
-/// A move after which so many times as much is missing went too far.
-const WORSE: f64 = 1.5;
-
 /// A contact this close to the edge of its disc, relative to the radius, is scaled with it.
 const ON_EDGE: f64 = 1e-9;
 
@@ -36,8 +33,6 @@ pub(super) struct Iterate {
     slip: Pair,
     approach: f64,
     shift: [f64; 2],
-    /// The last move of the shift, in metre, and what was missing of a given force before it, in N.
-    aimed: Option<([f64; 2], f64)>,
 }
 
 impl Iterate {
@@ -56,7 +51,6 @@ impl Iterate {
                 Drag::Shift(shift) => shift,
                 Drag::Force(_) => [0.0; 2],
             },
-            aimed: None,
         }
     }
 
@@ -88,7 +82,6 @@ impl Iterate {
             contact,
             approach: self.approach,
             shift: self.shift,
-            aimed: None,
         }
     }
 
@@ -149,7 +142,6 @@ impl Iterate {
             rubbing,
             approach: state.approach,
             shift: state.shift,
-            aimed: None,
         }
     }
 
@@ -290,23 +282,11 @@ impl HalfSpaceProblem {
         }
     }
 
-    /// Moves the other side by what the missing force takes, and the contacts with it; half the way back after a move that
-    /// went too far.
+    /// Moves the other side by what the missing force takes, and the contacts with it.
     pub(super) fn aim(&self, iterate: &mut Iterate) {
         let Drag::Force([x, y]) = self.drag else {
             return;
         };
-        let missing = [
-            x - total(&iterate.rubbing[0]),
-            y - total(&iterate.rubbing[1]),
-        ];
-        let size = missing[0].hypot(missing[1]);
-        if let Some((moved, before)) = iterate.aimed.filter(|(_, before)| size > WORSE * before) {
-            let half = moved.map(|part| part / 2.0);
-            (0..2).for_each(|axis| iterate.shift[axis] -= half[axis]);
-            iterate.aimed = Some((half, before));
-            return;
-        }
         let half = FrictionHalfStep {
             operator: &self.operator,
             points: &iterate.contact,
@@ -322,6 +302,10 @@ impl HalfSpaceProblem {
             unit[axis].fill(1.0);
             half.newton(&tangent, unit, STIFFNESS).0
         });
+        let missing = [
+            x - total(&iterate.rubbing[0]),
+            y - total(&iterate.rubbing[1]),
+        ];
         let [[k_xx, k_yx], [k_xy, k_yy]] =
             [0, 1].map(|axis| [0, 1].map(|row| total(&steps[axis][row])));
         let determinant = k_xx * k_yy - k_xy * k_yx;
@@ -335,7 +319,6 @@ impl HalfSpaceProblem {
         let slips = (0..contacts).map(|at| iterate.slip[0][at].hypot(iterate.slip[1][at]));
         let longest = FARTHEST * slips.fold(0.0, f64::max) / moved[0].hypot(moved[1]);
         let moved = moved.map(|part| part * longest.min(1.0));
-        iterate.aimed = Some((moved, size));
         for axis in 0..2 {
             iterate.shift[axis] += moved[axis];
             add_pair(&mut iterate.rubbing, moved[axis], &steps[axis]);

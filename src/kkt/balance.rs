@@ -20,12 +20,8 @@ use crate::error::Error;
 /// and where a support is, to this part of the largest displacement,
 const UNCARRIED: f64 = 1e-6;
 
-/// or if it is less than this part of the forces of the cells themselves: rounding, however they cancel,
+/// or if it is less than this part of the forces of the cells themselves: rounding, however they cancel.
 const ROUNDED: f64 = 1e-12;
-
-/// as long as that is less than this part of the largest force on it. Of a body that has moved so far that its cells
-/// cancel to less nothing is known.
-const LOST: f64 = 1e-2;
 
 /// A residual with the node where it is worst.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -65,9 +61,8 @@ impl Balance {
     /// stiffness no digits.
     #[must_use]
     pub fn holds(&self) -> bool {
-        let rounded = self.equilibrium.value <= ROUNDED * self.inner;
-        let allowed = if rounded { LOST } else { UNCARRIED };
-        let carried = self.equilibrium.scaled <= allowed;
+        let carried =
+            self.equilibrium.scaled <= UNCARRIED || self.equilibrium.value <= ROUNDED * self.inner;
         carried && self.support.scaled <= UNCARRIED
     }
 }

@@ -47,7 +47,7 @@ pub(crate) fn held(
         largest = largest.max(t[0].abs().hypot(tangential));
     }
     Ok(Held {
-        equilibrium: unanswered(modes, load, &vec![1.0; load.len()], reaction),
+        equilibrium: unanswered(modes, (load, &vec![1.0; load.len()]), (offsets, reaction)),
         excess: Defect {
             value: excess,
             scaled: ratio(excess, largest),

@@ -155,7 +155,7 @@ impl<'a> Judge<'a> {
                 .floating()
                 .map_or_else(Defect::default, |floating| {
                     let (modes, load) = (floating.modes(), floating.load());
-                    unanswered(modes, load, floating.sizes(), reaction)
+                    unanswered(modes, (load, floating.sizes()), (offsets, reaction))
                 }),
             penetration: signorini.penetration.over(length),
             tension: signorini.tension.over(force),

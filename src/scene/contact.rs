@@ -53,8 +53,8 @@ pub struct SceneContact {
     /// Compliance of the surfaces themselves, in series with the bodies; none when left out.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub compliance: Option<SceneCompliance>,
-    /// Gaps are measured between the smooth surfaces that straight facets stand for, as the turns
-    /// between these say; `false`: between the facets. Left out, they are rounded.
+    /// Gaps are measured between the smooth surfaces that straight facets stand for where these turn alike at three nodes on
+    /// end, and behind planes of symmetry; `false`: between the facets. Left out, they are rounded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rounded: Option<bool>,
     /// Length added to all gaps of the contact before loading: clearance if positive, interference if

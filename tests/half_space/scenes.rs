@@ -49,36 +49,6 @@ fn the_shipped_history_is_certified_and_remembers_its_slip() {
 }
 
 #[test]
-fn a_given_force_that_turns_round_mirrors_the_slip() {
-    // Like bodies under a constant load: at −Q, after Q, what Mindlin and Deresiewicz say is the mirror image
-    // (J. Appl. Mech. 20 (1953) 327–344). Half of what friction carries, along, across and at an angle.
-    for ([x, y], cells) in [
-        ([1.5, 0.0], 32),
-        ([0.0, 1.5], 48),
-        ([0.9, -1.2], 24),
-        ([2.0, 1.9], 32),
-    ] {
-        let text = format!(
-            r#"{{"half_space": {{"material": {{"young": 1000, "poisson": 0.3}}, "cells": [{cells}, 32],
-            "size": [1.34, 1.34], "surroundings": "free", "other": {{"young": 1000, "poisson": 0.3}}}},
-            "surface": [{BALL}], "friction": 0.3,
-            "steps": [{{"load": 10}}, {{"force": [{x}, {y}]}}, {{"force": [{}, {}]}}]}}"#,
-            -x, -y
-        );
-        let mut shifts = Vec::new();
-        let report = solve_half_space(&scene(&text).unwrap(), |_, _, outcome| {
-            shifts.push(outcome.state.shift);
-            Ok(())
-        })
-        .unwrap();
-        assert!(report.steps.iter().all(|step| step.certified()), "{x} {y}");
-        let size = shifts[1][0].hypot(shifts[1][1]);
-        let off = (shifts[2][0] + shifts[1][0]).hypot(shifts[2][1] + shifts[1][1]);
-        assert!(off < 1e-3 * size, "{x} {y}: {shifts:?}");
-    }
-}
-
-#[test]
 fn every_shipped_scene_is_sound() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/half_space");
     let files = fs::read_dir(folder)

@@ -457,8 +457,8 @@ fn a_loose_block_is_held_alike_by_laws_that_are_one_where_it_stands() {
         json!({"orthotropic": {"friction": [0.2, 0.2], "direction": [1, 0.5, 0]}}),
         json!({"tresca": {"shear": 1.6}}),
         json!({"cohesion": {"tension": 0.1, "shear": 0.1, "friction": 0.2}}),
-        json!({"rough": {}}),
-        json!({"bonded": {}}),
+        json!("rough"),
+        json!("bonded"),
     ];
     let cube = |name: &str, z: f64, cells: usize| {
         json!({

@@ -129,11 +129,15 @@ impl SceneGeometry {
         surface: &ContactSurface,
     ) -> Result<Self, Error> {
         check_sides(surface, bodies)?;
-        let meetings: Vec<Meeting> = pairs
+        let mut meetings: Vec<Meeting> = pairs
             .iter()
             .map(|pair| Meeting::new(bodies, pair))
             .collect();
         let supported = Supported::new(bodies, &meetings)?;
+        for skin in meetings.iter_mut().flat_map(|meeting| &mut meeting.skins) {
+            let body = skin.body;
+            skin.see_images(|node| supported.at(body, node));
+        }
         let mut seats = vec![Vec::new(); pairs.len()];
         for (number, contact) in surface.nodes.iter().enumerate() {
             let Some(of_pair) = seats.get_mut(contact.pair) else {

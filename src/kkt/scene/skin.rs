@@ -91,6 +91,19 @@ pub(super) struct Place {
 }
 
 impl Skin {
+    /// Faces at a plane of symmetry stand off the smooth surface as if their images were there; `held` are the directions
+    /// along which supports hold a node.
+    pub(super) fn see_images<'a>(&mut self, held: impl Fn(usize) -> &'a [Vector3<f64>]) {
+        for tile in &self.tiles {
+            let face = &mut self.faces[tile.face];
+            let planes = face.nodes.iter().flat_map(|&node| held(node));
+            let leans = planes.map(|plane| plane.dot(&tile.normal).abs().min(1.0).asin());
+            let turns = leans.map(|lean| 2.0 * lean).filter(|turn| *turn < CORNER);
+            let turn = turns.fold(0.0, f64::max);
+            face.sagitta = face.sagitta.max(face.size * turn / 8.0);
+        }
+    }
+
     /// The given facets of a body; what is no facet of a cell is left out.
     pub(super) fn new(index: usize, body: &Body, facets: &[Facet]) -> Self {
         let mesh = &body.mesh;
