@@ -169,7 +169,7 @@ impl<'a> Finish<'a> {
         })
     }
 
-    /// One step, the least one where some motion or reaction changes nothing; `None` if there is none. What each contact
+    /// One step, the least one where some motion of bodies that float changes nothing; `None` if there is none. What each contact
     /// does is read off the reaction and `seen`, a displacement beyond the gaps: the point's own, or that of a neighbour.
     pub(super) fn step(
         &mut self,
@@ -200,7 +200,8 @@ impl<'a> Finish<'a> {
         }
         let matrix = Factored::new(self.matrix(&laws, springs.softness));
         let right = self.right_side(&laws, &next, springs);
-        let solution = match matrix.is_singular() {
+        // Between bodies that are held springs tell better what to make of it.
+        let solution = match self.rigid.is_some() && matrix.is_singular() {
             true => condition::least_solution(&self.matrix(&laws, springs.softness), &right),
             false => Some(matrix.solve(&right)),
         };

@@ -177,6 +177,8 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use faer::{Mat, mat};
 
+    use crate::alternation::iterate::Motion;
+    use crate::alternation::run::Run;
     use crate::alternation::{Settings, Status, solve};
     use crate::problem::{ContactProblem, Floating, Operator};
 
@@ -206,6 +208,17 @@ mod tests {
         assert_eq!(found.status, Status::Certified);
         assert!((found.reaction[0] + 0.5).abs() < 1e-12);
         assert!((found.reaction[1] + 0.25 - 1e-6).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_state_that_a_body_ran_off_to_is_none() {
+        // Jaws overlap by half a metre: a motion of 1e9 m is beyond all that is known to eight digits of it.
+        let (problem, settings) = (clamped(0.2), Settings::default());
+        let mut run = Run::new(&problem, &settings);
+        for (motion, far) in [(0.2, false), (-1e6, false), (1e9, true)] {
+            run.best.motion = Motion::of(vec![motion]);
+            assert_eq!(run.has_run_off(), far, "{motion:e}");
+        }
     }
 
     #[test]
