@@ -156,7 +156,7 @@ impl<'a> Finish<'a> {
         })
     }
 
-    /// Condition of the matrix of the last step; none before the first.
+    /// Condition of the matrix of the last step; none before the first, and of a least step.
     pub(super) fn condition(&self) -> Option<f64> {
         self.last.as_ref().map(|system| match system {
             System::Force(matrix) => matrix.condition(),
@@ -201,11 +201,12 @@ impl<'a> Finish<'a> {
         let matrix = Factored::new(self.matrix(&laws, springs.softness));
         let right = self.right_side(&laws, &next, springs);
         // Between bodies that are held springs tell better what to make of it.
-        let solution = match self.rigid.is_some() && matrix.is_singular() {
+        let singular = self.rigid.is_some() && matrix.is_singular();
+        let solution = match singular {
             true => condition::least_solution(&self.matrix(&laws, springs.softness), &right),
             false => Some(matrix.solve(&right)),
         };
-        self.last = Some(System::Force(matrix));
+        self.last = (!singular).then_some(System::Force(matrix));
         let solution = solution.filter(|found| found.iter().all(|x| x.is_finite()))?;
         self.add(&mut next, &laws, &solution);
         Some(next)

@@ -6,12 +6,13 @@
 //! finish     Newton steps on the laws (D4), kept only if the judge's residual falls
 //! proximal   where a finish fails: a proximal point loop around Newton steps (D6)
 //! path       where that fails too, between bodies that are held: surfaces brought together from afar (D10),
-//!            or contacts joined one with the other (D13)
+//!            or contacts joined one with the other (D13); between those that float: what sliding contacts open by in
+//!            their program is taken away (D19)
 //! stop       judge's residual ≤ tolerance
 //! ```
 //!
-//! Bodies that only contact holds have one program over all Coulomb cones in place of both
-//! half-steps, with their equilibrium as rows (H8).
+//! Bodies that only contact holds have one program over all Coulomb cones, or the convex sets of other laws, in place of
+//! both half-steps, with their equilibrium as rows (H8), (H9).
 //!
 //! Contacts may obey laws beyond Coulomb's (`problem::Law`): bounds of friction and of normal reactions differ, sets that
 //! lie elsewhere or are no discs are moved first (D15). Without any the work is the same to the last step.

@@ -27,7 +27,7 @@
 //! should fit depart from each other by up to the sum of their sagittas, which may be more than
 //! what they overlap or approach. Gaps are therefore measured between the smooth surfaces: what facets
 //! leave of them is taken off. Where the facets' own turns say that nothing is round, b is exactly zero:
-//! on flat faces, beside kinks between them (an arc turns at three nodes on end, at least), beside a fillet of much shorter facets; and at a corner, from which on a facet goes by its
+//! on flat faces, beside kinks between them (an arc turns at three nodes on end, at least), on a flat between two fillets, beside a fillet of much shorter facets; and at a corner, from which on a facet goes by its
 //! other end, as it does at the end of a surface. Facets whose middle nodes follow the curve are round
 //! already.
 
@@ -36,7 +36,7 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::mirror::{Mirrors, image};
-use super::turn::{CORNER, STRAIGHT, UNLIKE, is_straight, smaller, turn};
+use super::turn::{CORNER, FLAT, STRAIGHT, UNLIKE, is_straight, smaller, turn};
 use super::turning_edges::turning_edges;
 use crate::body::{Facet, Mesh};
 
@@ -50,6 +50,8 @@ struct Bulge {
     corners: usize,
     /// 4 s of each of its edges in metre, from corner to corner; a line has one.
     edges: [f64; 4],
+    /// Of a line: its arc goes on at both ends.
+    inner: bool,
 }
 
 impl Bulge {
@@ -112,9 +114,14 @@ impl Bulges {
         self.of[facet].edges.iter().any(|round| *round != 0.0)
     }
 
-    /// κ in 1/m of the arc that a line of a length in metre stands for (C18).
+    /// κ in 1/m of the arc that a line of a length in metre stands for (C18); zero where the arc ends: what its last line
+    /// loses to (C23) its neighbour on a flat would not.
     pub(super) fn curvature(&self, facet: usize, length: f64) -> f64 {
-        2.0 * self.of[facet].edges[0] / (length * length)
+        let of_line = &self.of[facet];
+        match of_line.inner {
+            true => 2.0 * of_line.edges[0] / (length * length),
+            false => 0.0,
+        }
     }
 
     /// Number of those of some facets that are rounded, and the largest `|b|` in metre.
@@ -143,6 +150,16 @@ struct Curvature {
     value: f64,
     /// Length of the shorter one of the facets there, in metre.
     shorter: f64,
+    /// Nodes at the other ends of the facets there.
+    beside: [usize; 2],
+}
+
+impl Curvature {
+    /// The node behind this one, as seen from one of those beside it.
+    fn behind(&self, from: usize) -> usize {
+        let [one, other] = self.beside;
+        if one == from { other } else { one }
+    }
 }
 
 impl Turns {
@@ -169,9 +186,10 @@ impl Turns {
 
     fn bulge(&self, mesh: &Mesh, facet: &Facet) -> Bulge {
         let corners = facet.corners(mesh.dimension);
-        let mut edges = [0.0; 4];
+        let (mut edges, mut inner) = ([0.0; 4], false);
         if let [start, end] = corners {
-            edges[0] = 4.0 * self.sagitta(mesh, facet, [*start, *end]);
+            let (sagitta, goes_on) = self.sagitta(mesh, facet, [*start, *end]);
+            (edges[0], inner) = (4.0 * sagitta, goes_on);
         } else if !self.edges.is_empty() && is_straight(mesh, facet) {
             let next = corners.iter().cycle().skip(1);
             for (edge, (from, to)) in edges.iter_mut().zip(corners.iter().zip(next)) {
@@ -181,31 +199,49 @@ impl Turns {
         Bulge {
             corners: corners.len(),
             edges,
+            inner,
         }
     }
 
-    fn sagitta(&self, mesh: &Mesh, facet: &Facet, [start, end]: [usize; 2]) -> f64 {
+    /// The sagitta of a line in metre, and whether its arc goes on at both ends.
+    fn sagitta(&self, mesh: &Mesh, facet: &Facet, [start, end]: [usize; 2]) -> (f64, bool) {
         let chord = span(mesh, start, end);
         let on_chord = |node: &usize| {
             let off = chord.cross(&span(mesh, start, *node)).norm() / chord.norm();
             off <= ON_CHORD * chord.norm()
         };
         if !facet.nodes.iter().all(on_chord) {
-            return 0.0;
+            return (0.0, false);
         }
-        let ends = [start, end].map(|node| {
+        let ends = [(start, end), (end, start)].map(|(node, other)| {
             let found = self.curvature.get(&node)?;
             let alike = chord.norm() <= UNLIKE * found.shorter;
-            Some(if alike { found.value } else { 0.0 })
+            let behind = self.curvature.get(&found.behind(other));
+            let behind = behind.map_or(0.0, |of| of.value);
+            Some([if alike { found.value } else { 0.0 }, behind])
         });
-        0.5 * chord.norm() * (0.25 * smaller(ends) * chord.norm()).tan()
+        let own = ends.map(|end| end.map(|[own, _]| own));
+        let most = own
+            .iter()
+            .flatten()
+            .fold(0.0_f64, |most, own| most.max(own.abs()));
+        let flat = |end: &Option<[f64; 2]>| {
+            end.is_none_or(|[own, behind]| own.abs() < FLAT * behind.abs())
+        };
+        let goes_on = |end: &Option<[f64; 2]>| {
+            end.is_some_and(|[own, behind]| own * behind > 0.0 && behind.abs() >= FLAT * most)
+        };
+        if ends.iter().all(flat) {
+            return (0.0, false);
+        }
+        let sagitta = 0.5 * chord.norm() * (0.25 * smaller(own) * chord.norm()).tan();
+        (sagitta, ends.iter().all(goes_on))
     }
 }
 
 /// κ of the nodes of a boundary of lines; none at corners, zero at kinks: an arc turns at three nodes on end, at least.
 fn curvatures(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> HashMap<usize, Curvature> {
-    let mut found = HashMap::new();
-    let mut beside: HashMap<usize, [usize; 2]> = HashMap::new();
+    let mut found: HashMap<usize, Curvature> = HashMap::new();
     for (node, ends) in joints(mesh, boundary) {
         let mut lines = [span(mesh, ends[0], node), span(mesh, node, ends[1])];
         let planes = lines.map(|line| {
@@ -228,24 +264,24 @@ fn curvatures(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> HashMap<usi
             let turn = if turn.abs() < STRAIGHT { 0.0 } else { turn };
             let [before, after] = lines.map(|line| line.norm());
             let value = 2.0 * turn / (before + after);
-            let shorter = before.min(after);
-            found.insert(node, Curvature { value, shorter });
-            beside.insert(node, ends);
+            let of_node = Curvature {
+                value,
+                shorter: before.min(after),
+                beside: ends,
+            };
+            found.insert(node, of_node);
         }
     }
     let turns = |node: usize| found.get(&node).map_or(0.0, |of| of.value);
-    let on = |node: usize, from: usize| {
-        let ends = beside.get(&node)?;
-        Some(if ends[0] == from { ends[1] } else { ends[0] })
+    let alone = |(node, of): (&usize, &Curvature)| {
+        let alike = |other: Option<usize>| other.is_some_and(|at| turns(at) * of.value > 0.0);
+        let near = of.beside.map(|end| alike(Some(end)));
+        let on = |end: usize| found.get(&end).map(|of_end| of_end.behind(*node));
+        let far = [0, 1].map(|k| near[k] && alike(on(of.beside[k])));
+        let kink = !(near == [true; 2] || far.contains(&true));
+        kink.then_some(*node)
     };
-    let alone = |&(node, ends): &(usize, [usize; 2])| {
-        let alike = |other: Option<usize>| other.is_some_and(|at| turns(at) * turns(node) > 0.0);
-        let near = ends.map(|end| alike(Some(end)));
-        let far = [0, 1].map(|k| near[k] && alike(on(ends[k], node)));
-        !(near == [true; 2] || far.contains(&true))
-    };
-    let nodes = beside.iter().map(|(node, ends)| (*node, *ends));
-    let kinks: Vec<usize> = nodes.filter(alone).map(|(node, _)| node).collect();
+    let kinks: Vec<usize> = found.iter().filter_map(alone).collect();
     for node in kinks {
         found.entry(node).and_modify(|of| of.value = 0.0);
     }

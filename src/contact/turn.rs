@@ -14,6 +14,9 @@ pub(super) const STRAIGHT: f64 = 1e-6;
 /// a short one is a flat that goes over into a fillet.
 pub(super) const UNLIKE: f64 = 3.0;
 
+/// A facet that turns at its ends by less than this part of what the surface does behind them is a flat between arcs.
+pub(super) const FLAT: f64 = 0.6;
+
 /// Departure from straight sides, relative to the size of the facet, that is round-off.
 const ON_SIDE: f64 = 1e-10;
 

@@ -18,7 +18,7 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::mirror::{Mirrors, image, lies_in};
-use super::turn::{CORNER, STRAIGHT, UNLIKE, smaller};
+use super::turn::{CORNER, FLAT, STRAIGHT, UNLIKE, smaller};
 use crate::body::{Facet, Mesh};
 
 /// Cosine from which on an edge goes on behind another one.
@@ -161,22 +161,29 @@ impl<'a> Faces<'a> {
         around: &HashMap<usize, Vec<Neighbour>>,
         mirrors: &Mirrors,
     ) -> bool {
+        let length = self.edge(from, to).norm();
         let behind = |at: usize, away: usize, turn: f64| {
             let neighbours = around.get(&at).into_iter().flatten();
-            let alike = neighbours.filter(move |(_, far)| far.is_some_and(|far| far * turn > 0.0));
-            let nodes = alike.map(|(other, _)| *other);
-            nodes.filter(move |other| self.is_behind(*other, at, away, mirrors))
+            let alike = neighbours.filter_map(move |(other, far)| Some((*other, (*far)?)));
+            let alike = alike.filter(move |(other, far)| {
+                far * turn > 0.0 && self.is_behind(*other, at, away, mirrors)
+            });
+            alike.map(move |(other, far)| (other, (far / self.edge(at, other).norm()).abs()))
         };
         let two_behind = |at: usize, away: usize, turn: f64| {
-            behind(at, away, turn).any(|next| behind(next, at, turn).next().is_some())
+            behind(at, away, turn).any(|(next, _)| behind(next, at, turn).next().is_some())
+        };
+        // Flatter than what is behind by more than an arc is.
+        let flat = |at: usize, away: usize, turn: f64| {
+            behind(at, away, turn).any(|(_, most)| turn.abs() / length < FLAT * most)
         };
         match half_turns {
             [Some(a), Some(b)] => {
                 let mut third = behind(from, to, a).chain(behind(to, from, b));
-                a * b > 0.0 && third.next().is_some()
+                a * b > 0.0 && third.next().is_some() && !(flat(from, to, a) && flat(to, from, b))
             }
-            [Some(turn), None] => two_behind(from, to, turn),
-            [None, Some(turn)] => two_behind(to, from, turn),
+            [Some(turn), None] => two_behind(from, to, turn) && !flat(from, to, turn),
+            [None, Some(turn)] => two_behind(to, from, turn) && !flat(to, from, turn),
             [None, None] => false,
         }
     }

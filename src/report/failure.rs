@@ -55,7 +55,8 @@ impl ReportedFailure {
             motions,
             sliding: failure.sliding.clone(),
             opening: failure.opening.clone(),
-            elastic: failure.elastic,
+            // Of other laws it was not asked what rigid bodies would do.
+            elastic: failure.elastic && parts.problem.laws().is_none(),
             work: failure.proof.work,
             resistance: failure.proof.resistance,
         })

@@ -6,7 +6,7 @@ use super::ReportParts;
 use super::digits::size;
 use super::fit::fault;
 use crate::alternation;
-use crate::alternation::{Outcome, Status};
+use crate::alternation::Status;
 
 /// Why a solve ended as it did, and what to do about it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -79,24 +79,28 @@ impl ReportedShortfall {
             }),
             Status::NoEquilibrium => Some(Self {
                 reason: Reason::NoEquilibrium,
-                advice: held(outcome),
+                advice: held(parts),
             }),
         }
     }
 }
 
 /// What could hold bodies that move off: friction only where something slides.
-fn held(outcome: &Outcome) -> String {
-    let failure = outcome.failure.as_ref();
+fn held(parts: &ReportParts<'_>) -> String {
+    let failure = parts.outcome.failure.as_ref();
     let slides = failure.is_some_and(|of| !of.sliding.is_empty() || of.opening.is_empty());
-    let advice = match slides {
-        true => "hold the motion by a support, or by more friction: `dpana limit` says how much",
-        false => {
+    let laws = parts.problem.laws().is_some();
+    let advice = match (slides, laws) {
+        (true, false) => {
+            "hold the motion by a support, or by more friction: `dpana limit` says how much"
+        }
+        (true, true) => "hold the motion by a support, or by a law of contact that bears more",
+        (false, _) => {
             "hold the motion by a support, or press the bodies together: contacts that only open are \
              held by no friction"
         }
     };
-    match failure.is_some_and(|failure| failure.elastic) {
+    match failure.is_some_and(|failure| failure.elastic && !laws) {
         true => format!(
             "{advice}; or bring the loads on one after the other, by `steps`: rigid bodies would be held, \
              and what friction holds of elastic ones depends on the way"
@@ -107,7 +111,9 @@ fn held(outcome: &Outcome) -> String {
 
 /// What to do where sweeps lead nowhere: less friction only helps where there is any.
 fn stalled(sweeps: usize, parts: &ReportParts<'_>) -> String {
-    let cause = match parts.problem.friction().iter().any(|mu| *mu > 0.0) {
+    let laws = parts.problem.laws().unwrap_or_default();
+    let rough = laws.iter().any(|law| law.sticks || law.shear > 0.0);
+    let cause = match rough || parts.problem.friction().iter().any(|mu| *mu > 0.0) {
         true => {
             "with this much friction there may be several states, or one that smaller load steps lead \
              to; try steps, or less friction"
