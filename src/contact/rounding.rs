@@ -315,7 +315,7 @@ mod tests {
     use super::*;
 
     /// Bulges of the lines through points, which go round the body against the clock.
-    fn bulges(points: &[[f64; 2]]) -> Vec<f64> {
+    fn lines(points: &[[f64; 2]]) -> Bulges {
         let nodes = points.iter().map(|[x, y]| [*x, *y, 0.0]);
         let mesh = Mesh::new(2, nodes.collect());
         let lines: Vec<Facet> = (0..points.len())
@@ -323,12 +323,13 @@ mod tests {
                 nodes: vec![k, (k + 1) % points.len()],
             })
             .collect();
-        Turns::new(&mesh, &lines, &Mirrors::default())
-            .bulges(&mesh, &lines, true)
-            .of
-            .iter()
-            .map(|bulge| bulge.edges[0] / 4.0)
-            .collect()
+        Turns::new(&mesh, &lines, &Mirrors::default()).bulges(&mesh, &lines, true)
+    }
+
+    /// Their sagittas, positive outwards.
+    fn bulges(points: &[[f64; 2]]) -> Vec<f64> {
+        let of = lines(points).of;
+        of.iter().map(|bulge| bulge.edges[0] / 4.0).collect()
     }
 
     #[test]
@@ -345,6 +346,11 @@ mod tests {
             for s in bulges(&points) {
                 assert!((s - (1.0 - half.cos())).abs() < 1e-14, "{s}");
             }
+            let curvature = lines(&points).curvature(3, 2.0 * half.sin());
+            assert!(
+                (curvature - 2.0 / (1.0 + half.cos())).abs() < 1e-12,
+                "{curvature}"
+            );
             // From inside the same circle is a bore.
             let bore: Vec<[f64; 2]> = points.into_iter().rev().collect();
             assert!(bulges(&bore).iter().all(|s| *s < 0.0));
