@@ -15,7 +15,7 @@ use faer::{Col, Mat};
 use rayon::prelude::*;
 
 use super::condition::Factored;
-use super::laws::{self, Law, dot};
+use super::laws::{self, Law, dot, of_contact};
 use crate::problem::{ContactProblem, RoundedStiffness};
 
 /// Unknown reactions from which on it is looked whether fewer displacements are,
@@ -72,17 +72,19 @@ impl DisplacementMethod {
         };
         let (mut right, mut given, mut asked) = (right.iter(), Vec::new(), Vec::<f64>::new());
         for (block, law) in &self.contacts {
-            let own = right
+            let asked_of = right
                 .by_ref()
                 .take(law.as_ref().map_or(0, |law| law.directions().len()));
             match law {
-                Some(law) if law.sticks() => given.extend(block.clone().zip(own.copied())),
-                _ => asked.extend(own.chain(&[0.0; 3]).take(block.len())),
+                Some(law) if law.sticks() => given.extend(block.clone().zip(asked_of.copied())),
+                _ => asked.extend(asked_of.chain(&[0.0; 3]).take(block.len())),
             }
         }
         carry(&mut force, &given);
+        let scaled =
+            |block: &Range<usize>, force: &[f64]| of_contact(block, |at| force[at] / roots[at]);
         let known = moving(&self.contacts).flat_map(|(block, law)| {
-            let carried = scaled(&force, roots, block);
+            let carried = scaled(block, &force);
             let rows = rows(law.as_ref(), block.len()).into_iter();
             rows.map(move |row| dot(row.force, carried))
         });
@@ -97,7 +99,7 @@ impl DisplacementMethod {
             &unknowns.zip(found.iter().copied()).collect::<Vec<_>>(),
         );
         let amounts = self.contacts.iter().flat_map(|(block, law)| {
-            let change = scaled(&force, roots, block);
+            let change = scaled(block, &force);
             law.iter().flat_map(move |law| law.amounts(change))
         });
         amounts.collect()
@@ -159,25 +161,18 @@ fn matrix(contacts: &[Contact], (stiffness, roots): (&RoundedStiffness, &[f64]))
     let columns = matrix.as_mut().par_col_iter_mut().zip(&unknowns);
     columns.for_each(|(column, &unknown)| {
         for (entry, (block, row)) in column.iter_mut().zip(&rows) {
-            let mut carried = [0.0; 3];
-            for (carried, at) in carried.iter_mut().zip((*block).clone()) {
-                *carried = stiffness.entry(at, unknown) / (roots[at] * roots[unknown]);
-            }
-            let own = unknown
-                .checked_sub(block.start)
-                .filter(|own| *own < block.len());
-            *entry = dot(row.force, carried) + own.map_or(0.0, |own| row.motion[own]);
+            let scaled = |at: usize| roots[at] * roots[unknown];
+            let carried = of_contact(block, |at| stiffness.entry(at, unknown) / scaled(at));
+            let itself = block.contains(&unknown);
+            let moved = if itself {
+                row.motion[unknown - block.start]
+            } else {
+                0.0
+            };
+            *entry = dot(row.force, carried) + moved;
         }
     });
     matrix
-}
-
-/// Reactions of a contact, `t/√ρ`.
-fn scaled(reaction: &[f64], roots: &[f64], block: &Range<usize>) -> [f64; 3] {
-    let mut own = [0.0; 3];
-    let unknowns = own.iter_mut().zip(block.clone());
-    unknowns.for_each(|(own, unknown)| *own = reaction[unknown] / roots[unknown]);
-    own
 }
 
 #[cfg(test)]

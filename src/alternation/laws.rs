@@ -260,14 +260,6 @@ impl Local {
 }
 
 impl Law {
-    /// What belongs to its own unknowns.
-    fn local(&self, of: impl Fn(usize) -> f64) -> [f64; 3] {
-        let mut local = [0.0; 3];
-        let unknowns = local.iter_mut().zip(self.block.clone());
-        unknowns.for_each(|(own, unknown)| *own = of(unknown));
-        local
-    }
-
     /// Directions in which its reaction is free; at right angles.
     pub(super) fn directions(&self) -> &[[f64; 3]] {
         &self.directions[..self.free]
@@ -328,13 +320,21 @@ impl Law {
     }
 }
 
+/// What belongs to the unknowns of one contact.
+pub(super) fn of_contact(block: &Range<usize>, of: impl Fn(usize) -> f64) -> [f64; 3] {
+    let mut own = [0.0; 3];
+    let unknowns = own.iter_mut().zip(block.clone());
+    unknowns.for_each(|(own, unknown)| *own = of(unknown));
+    own
+}
+
 /// Rows of all laws for something that moves each unknown by `moved`, scaled.
 pub(super) fn rows<'a>(
     laws: &'a [Law],
     moved: impl Fn(usize) -> f64 + 'a,
 ) -> impl Iterator<Item = f64> + 'a {
     laws.iter()
-        .flat_map(move |law| law.rows(law.local(&moved), [0.0; 3]))
+        .flat_map(move |law| law.rows(of_contact(&law.block, &moved), [0.0; 3]))
 }
 
 /// How far something that moves each unknown by `moved`, scaled, moves along each direction in which reactions are free.
@@ -343,7 +343,7 @@ pub(super) fn along<'a>(
     moved: impl Fn(usize) -> f64 + 'a,
 ) -> impl Iterator<Item = f64> + 'a {
     laws.iter().flat_map(move |law| {
-        let local = law.local(&moved);
+        let local = of_contact(&law.block, &moved);
         law.directions()
             .iter()
             .map(move |direction| dot(*direction, local))
@@ -427,7 +427,8 @@ fn column_of<'a>(
         }
     }
     laws.iter().flat_map(move |law| {
-        let (mut moved, mut reaction) = (law.local(|at| roots[at] * moved[at]), [0.0; 3]);
+        let (mut moved, mut reaction) =
+            (of_contact(&law.block, |at| roots[at] * moved[at]), [0.0; 3]);
         if law.contact == own.contact {
             reaction = direction;
             (0..3).for_each(|k| moved[k] += softness * direction[k]);

@@ -12,7 +12,7 @@
 //! ```
 //!
 //! Bodies that only contact holds have one program over all Coulomb cones, or the convex sets of other laws, in place of
-//! both half-steps, with their equilibrium as rows (H8), (H9).
+//! both half-steps, with their equilibrium as rows (H8), (H10).
 //!
 //! Contacts may obey laws beyond Coulomb's (`problem::Law`): bounds of friction and of normal reactions differ, sets that
 //! lie elsewhere or are no discs are moved first (D15). Without any the work is the same to the last step.

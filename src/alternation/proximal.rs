@@ -21,6 +21,7 @@ use std::time::Instant;
 use super::finish::{Finish, Point, Springs};
 use super::iterate::Iterate;
 use super::run::Run;
+use crate::problem::velocity_basis::product;
 
 /// Softness of the first springs, and the largest that is tried.
 const SOFTNESS: (f64, f64) = (1e-6, 1e6);
@@ -103,8 +104,7 @@ impl Run<'_> {
             }
             stood = self.stood(stood);
             if last
-                || (stood.1 >= STANDS.1
-                    && self.give_way(&before, FAR * self.reach(&self.state.reaction)))
+                || (stood.1 >= STANDS.1 && self.give_way(&before, FAR * self.reach(&self.state)[0]))
             {
                 break;
             }
@@ -122,25 +122,27 @@ impl Run<'_> {
 
     /// Whether the best state is one that bodies ran off to.
     pub(super) fn has_run_off(&self) -> bool {
-        self.problem.floating().is_some_and(|floating| {
-            let modes = floating.modes();
-            let moved = (0..modes.nrows()).map(|row| {
-                let along = self.best.motion.amplitudes.iter().enumerate();
-                along
-                    .map(|(k, amplitude)| modes[(row, k)] * amplitude)
-                    .sum::<f64>()
-            });
-            let farthest = moved.fold(0.0_f64, |most, u| most.max(u.abs()));
-            farthest > BEYOND * self.reach(&self.best.reaction)
-        })
+        self.problem.floating().is_some() && {
+            let [reach, moved] = self.reach(&self.best);
+            moved > BEYOND * reach
+        }
     }
 
-    /// Largest gap, indentation or slip that no motion of whole bodies makes, in metre.
-    fn reach(&self, reaction: &[f64]) -> f64 {
-        let displacement = self.problem.displacement(reaction);
-        let beyond = self.problem.beyond(displacement);
-        beyond.iter().fold(0.0, |reach, u| reach.max(u.abs()))
+    /// Largest gap, indentation or slip of a measured state that no motion of whole bodies makes, and the largest that one
+    /// makes, in metre.
+    fn reach(&self, state: &Iterate) -> [f64; 2] {
+        let Some(floating) = self.problem.floating() else {
+            return [largest(state.verdict.beyond.iter().copied()), 0.0];
+        };
+        let moved = product(floating.modes(), &state.motion.amplitudes);
+        let beyond = state.verdict.beyond.iter().zip(&moved);
+        let reach = largest(beyond.map(|(beyond, moved)| beyond - moved));
+        [reach, largest(moved.iter().copied())]
     }
+}
+
+fn largest(lengths: impl Iterator<Item = f64>) -> f64 {
+    lengths.fold(0.0, |most, length| most.max(length.abs()))
 }
 
 /// The solution of a subproblem anchored at a state, if Newton steps lead there, and how many were taken.
@@ -177,9 +179,10 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use faer::{Mat, mat};
 
-    use crate::alternation::iterate::Motion;
+    use crate::alternation::iterate::{Iterate, Motion};
     use crate::alternation::run::Run;
     use crate::alternation::{Settings, Status, solve};
+    use crate::kkt::Judge;
     use crate::problem::{ContactProblem, Floating, Operator};
 
     #[test]
@@ -216,7 +219,8 @@ mod tests {
         let (problem, settings) = (clamped(0.2), Settings::default());
         let mut run = Run::new(&problem, &settings);
         for (motion, far) in [(0.2, false), (-1e6, false), (1e9, true)] {
-            run.best.motion = Motion::of(vec![motion]);
+            let judge = Judge::new(&problem);
+            run.best = Iterate::new(&judge, vec![0.0; 2], Motion::of(vec![motion]));
             assert_eq!(run.has_run_off(), far, "{motion:e}");
         }
     }

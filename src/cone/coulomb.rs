@@ -9,7 +9,7 @@
 //! Where the shift `s` is the slip `‖u_T‖` of the minimiser itself, (L1)–(L3) hold: the fixed point
 //! of Acary, Cadoux, Lemaréchal and Malick (Z. Angew. Math. Mech. 91 (2011) 155–175). With `s = 0` a sliding
 //! contact opens as it slides; its reaction is a start that is admissible and in equilibrium.
-//! The multipliers of the equilibrium rows are the rigid motion α. Laws beyond Coulomb's have their own sets (H9).
+//! The multipliers of the equilibrium rows are the rigid motion α. Laws beyond Coulomb's have their own sets (H10).
 
 use faer::MatRef;
 

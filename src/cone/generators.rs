@@ -8,7 +8,7 @@
 //! one        z₊, z₋ ≥ 0         t_N = −c (z₊ + z₋),   t_T = −c μ (z₊ − z₋)
 //! two        z_0 ≥ ‖(z_1, z_2)‖ t_N = −c z_0,         t_T = c μ (z_1, z_2)
 //!
-//! (H9)  of (L5): K_i and a disc,  t_T = … + c y,  ‖c y‖ ≤ a;   a cap,  ‖t_T‖ ≤ τ;   t_N of either sign,  … + c w,  w ≥ 0;
+//! (H10)  of (L5): K_i and a disc,  t_T = … + c y,  ‖c y‖ ≤ a;   a cap,  ‖t_T‖ ≤ τ;   t_N of either sign,  … + c w,  w ≥ 0;
 //!       t_T without a bound where it sticks
 //! ```
 //!
@@ -155,7 +155,7 @@ impl Generators {
     }
 }
 
-/// Discs of (H9), with rays that are added for friction without pressure and for tangents without a bound.
+/// Discs of (H10), with rays that are added for friction without pressure and for tangents without a bound.
 fn discs(problem: &ContactProblem, scale: &[f64], rays: &mut Vec<Ray>) -> Vec<Disc> {
     let of_cones = rays.clone();
     let (mut added, mut capped) = (Vec::new(), Vec::new());

@@ -55,10 +55,15 @@ impl ReportedFailure {
             motions,
             sliding: failure.sliding.clone(),
             opening: failure.opening.clone(),
-            // Of other laws it was not asked what rigid bodies would do.
-            elastic: failure.elastic && parts.problem.laws().is_none(),
+            elastic: gives_way(parts),
             work: failure.proof.work,
             resistance: failure.proof.resistance,
         })
     }
+}
+
+/// Whether bodies give way that would be held if they were rigid; of laws beyond Coulomb's that was not asked.
+pub(super) fn gives_way(parts: &ReportParts<'_>) -> bool {
+    let failure = parts.outcome.failure.as_ref();
+    failure.is_some_and(|failure| failure.elastic) && parts.problem.laws().is_none()
 }

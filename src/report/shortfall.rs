@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::ReportParts;
 use super::digits::size;
+use super::failure::gives_way;
 use super::fit::fault;
 use crate::alternation;
 use crate::alternation::Status;
@@ -100,7 +101,7 @@ fn held(parts: &ReportParts<'_>) -> String {
              held by no friction"
         }
     };
-    match failure.is_some_and(|failure| failure.elastic && !laws) {
+    match gives_way(parts) {
         true => format!(
             "{advice}; or bring the loads on one after the other, by `steps`: rigid bodies would be held, \
              and what friction holds of elastic ones depends on the way"

@@ -29,7 +29,7 @@ const CLOSE: f64 = 1e-9;
 /// Strides at most.
 const STRIDES: usize = 200;
 
-/// Reaction in newton per unknown and motion of a state, at a θ.
+/// A path on its way.
 pub(super) struct DilationPath<'a> {
     problem: &'a ContactProblem,
     /// δ per contact, in metre.
