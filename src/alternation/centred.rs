@@ -8,6 +8,9 @@
 //! The laws (L4), (L5) of t and u are then those of t' and u' = Bᵀ u without tension and ellipse: the gaps are the
 //! same, and so is the work t · u but for that of glue, which bears c whatever happens. The answer is judged as it
 //! was asked for, in t.
+//!
+//! Glue that bears far more than is asked of it costs digits, as t' is then far from zero: where they are missing, c is
+//! made so much less that it still is out of reach.
 
 use faer::Mat;
 
@@ -17,11 +20,15 @@ use crate::error::Error;
 use crate::kkt::Judge;
 use crate::problem::{ContactProblem, Ellipse, Floating, Law, Operator};
 
-/// Part of the residual that is left over the one that is asked for, to which a second solve goes.
-const CLOSER: f64 = 0.3;
+/// Glue out of reach bears so many times the largest reaction.
+const OUT_OF_REACH: f64 = 4.0;
 
-/// What turns reactions and displacements into those of the problem that is solved.
-pub(super) struct Centred<'a> {
+/// All digits: the tolerance of a second solve where the first one has too few.
+const CLOSEST: f64 = 1e-15;
+
+/// A problem and the one that is solved in its place (D15), with what turns reactions and displacements of one into
+/// those of the other.
+pub struct Centred<'a> {
     stated: &'a ContactProblem,
     /// None where nothing has to be moved.
     moved: Option<Moved>,
@@ -40,26 +47,51 @@ pub(super) fn on_centred_sets(
     solve: impl Fn(&ContactProblem, &Centred<'_>) -> Result<Outcome, Error>,
 ) -> Result<Outcome, Error> {
     let centred = Centred::new(stated)?;
-    let Some(moved) = &centred.moved else {
+    if centred.moved.is_none() {
         return solve(stated, &centred);
+    }
+    let found = as_centred(&centred, settings, &solve)?;
+    let weaker = match found.status {
+        Status::NotConverged => centred.weaker(&found.reaction)?,
+        _ => None,
     };
-    let found = solve(&moved.problem, &centred)?;
+    let Some(weaker) = weaker else {
+        return Ok(found);
+    };
+    let again = as_centred(&weaker, settings, &solve)?;
+    Ok(match again.status {
+        Status::Certified => again.after(found),
+        _ => found,
+    })
+}
+
+fn as_centred(
+    centred: &Centred<'_>,
+    settings: &Settings,
+    solve: impl Fn(&ContactProblem, &Centred<'_>) -> Result<Outcome, Error>,
+) -> Result<Outcome, Error> {
+    let found = solve(centred.solved(), centred)?;
     let outcome = centred.as_stated(found.clone(), settings);
     let (asked, left) = (settings.tolerance, outcome.verdict.certificate.residual());
     if found.status != Status::Certified || left <= asked {
         return Ok(outcome);
     }
-    // Lengths of t and t' differ: some digits more.
+    // Lengths of t and t' differ.
     let closer = Settings {
-        tolerance: (CLOSER * asked * asked / left).max(1e-15),
+        tolerance: CLOSEST,
         ..*settings
     };
-    let again = newton(&moved.problem, &closer, &found.reaction, &found.motion)?;
+    let again = newton(centred.solved(), &closer, &found.reaction, &found.motion)?;
     Ok(centred.as_stated(again.after(found), settings))
 }
 
 impl<'a> Centred<'a> {
-    fn new(stated: &'a ContactProblem) -> Result<Self, Error> {
+    /// Of a problem as it is stated.
+    ///
+    /// # Errors
+    ///
+    /// Numbers that overflow as they are turned.
+    pub fn new(stated: &'a ContactProblem) -> Result<Self, Error> {
         let laws = stated.laws().unwrap_or_default();
         let off = |law: &Law| law.tension > 0.0 || law.ellipse.is_some();
         let moved = match laws.iter().any(off) {
@@ -67,6 +99,37 @@ impl<'a> Centred<'a> {
             true => Some(Moved::new(stated, laws)?),
         };
         Ok(Self { stated, moved })
+    }
+
+    /// With glue that bears less wherever it is far from what it bears under a reaction; none where that is nowhere.
+    fn weaker(&self, reaction: &[f64]) -> Result<Option<Self>, Error> {
+        let Some(moved) = &self.moved else {
+            return Ok(None);
+        };
+        let bears = OUT_OF_REACH * reaction.iter().fold(0.0_f64, |most, t| most.max(t.abs()));
+        let mut laws = moved.laws.clone();
+        for (law, &normal) in laws.iter_mut().zip(self.stated.normals()) {
+            if OUT_OF_REACH * reaction[normal] < law.tension {
+                law.tension = law.tension.min(bears);
+            }
+        }
+        if bears == 0.0 || laws == moved.laws {
+            return Ok(None);
+        }
+        Ok(Some(Self {
+            moved: Some(Moved::new(self.stated, &laws)?),
+            ..*self
+        }))
+    }
+
+    pub(super) fn stated(&self) -> &'a ContactProblem {
+        self.stated
+    }
+
+    pub(super) fn solved(&self) -> &ContactProblem {
+        self.moved
+            .as_ref()
+            .map_or(self.stated, |moved| &moved.problem)
     }
 
     /// `t'`, in newton per unknown.
@@ -95,18 +158,31 @@ impl<'a> Centred<'a> {
         displacement
     }
 
+    /// Changes of reactions `B ṫ'`, in place.
+    pub(super) fn turn_back(&self, reaction: &mut [f64]) {
+        if let Some(moved) = &self.moved {
+            moved.turn_by(reaction, axes);
+        }
+    }
+
+    /// Changes of displacements `B⁻ᵀ u̇'`, in place.
+    pub(super) fn turn_back_displacement(&self, displacement: &mut [f64]) {
+        if let Some(moved) = &self.moved {
+            moved.turn_by(displacement, |ellipse| {
+                let ratio = ellipse.ratio.recip();
+                axes(Ellipse { ratio, ..ellipse })
+            });
+        }
+    }
+
     /// What was found, as it was asked for.
     fn as_stated(&self, mut outcome: Outcome, settings: &Settings) -> Outcome {
         let Some(moved) = &self.moved else {
             return outcome;
         };
-        for (contact, law) in moved.laws.iter().enumerate() {
-            let block = &mut outcome.reaction[self.stated.block(contact)];
-            block[0] += law.tension;
-            if let (Some(ellipse), [_, t_1, t_2]) = (law.ellipse, block) {
-                let [[a, b], [c, d]] = axes(ellipse);
-                (*t_1, *t_2) = (a * *t_1 + b * *t_2, c * *t_1 + d * *t_2);
-            }
+        moved.turn_by(&mut outcome.reaction, axes);
+        for (&normal, law) in self.stated.normals().iter().zip(&moved.laws) {
+            outcome.reaction[normal] += law.tension;
         }
         let (reaction, motion) = (&outcome.reaction, &outcome.motion);
         outcome.verdict =
@@ -119,7 +195,7 @@ impl<'a> Centred<'a> {
                 outcome.shortfall = Some(Shortfall::RoundOff { floor: residual });
             }
             // What more digits were asked of for their own sake.
-            Status::NotConverged if within && outcome.shortfall == Some(Shortfall::SweepLimit) => {
+            Status::NotConverged if within => {
                 (outcome.status, outcome.shortfall) = (Status::Certified, None);
             }
             _ => {}
@@ -167,11 +243,19 @@ impl Moved {
 
     /// `Bᵀ u`, in place.
     fn turn(&self, displacement: &mut [f64]) {
+        self.turn_by(displacement, |ellipse| {
+            let [[a, b], [c, d]] = axes(ellipse);
+            [[a, c], [b, d]]
+        });
+    }
+
+    /// The matrix of each ellipse times the tangential part, in place.
+    fn turn_by(&self, vector: &mut [f64], matrix: impl Fn(Ellipse) -> [[f64; 2]; 2]) {
         for (contact, law) in self.laws.iter().enumerate() {
-            let block = &mut displacement[self.problem.block(contact)];
-            if let (Some(ellipse), [_, u_1, u_2]) = (law.ellipse, block) {
-                let [[a, b], [c, d]] = axes(ellipse);
-                (*u_1, *u_2) = (a * *u_1 + c * *u_2, b * *u_1 + d * *u_2);
+            let block = &mut vector[self.problem.block(contact)];
+            if let (Some(ellipse), [_, x, y]) = (law.ellipse, block) {
+                let [[a, b], [c, d]] = matrix(ellipse);
+                (*x, *y) = (a * *x + b * *y, c * *x + d * *y);
             }
         }
     }

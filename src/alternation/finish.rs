@@ -338,11 +338,11 @@ impl<'a> Finish<'a> {
         local
     }
 
-    /// By what a coefficient is larger between scaled reactions; 0 where there is no tangent.
-    pub(super) fn shape(&self, contact: usize) -> f64 {
+    /// √ρ of a contact's tangents; 1 where there is none.
+    pub(super) fn tangential_root(&self, contact: usize) -> f64 {
         match self.roots[self.problem.block(contact)] {
-            [normal, tangential, ..] => normal / tangential,
-            _ => 0.0,
+            [_, tangential, ..] => tangential,
+            _ => 1.0,
         }
     }
 

@@ -19,6 +19,9 @@ use crate::problem::{Floating, Law};
 /// The judge believes a failing motion that would take reactions of more than this times the load.
 const IMPOSSIBLE: f64 = 1e3;
 
+/// A program that leaves more of the load than this part is doubted.
+const UNHELD: f64 = 1e-6;
+
 /// Tolerance of the program: its state is a start for Newton steps.
 const TOLERANCE: f64 = 1e-8;
 
@@ -43,6 +46,12 @@ impl Run<'_> {
             };
             if let Some(Equilibrium::Impossible { motion, excess }) = found {
                 self.failure = self.believe(&contacts, floating, motion, excess);
+            } else if let (false, Some(motion)) = (laws.is_empty(), self.doubted.take()) {
+                let (motion, _) = contacts.at_unit_speed(motion, floating.load());
+                let missing = self
+                    .proof(floating, &motion)
+                    .map_or(0.0, |proof| proof.work);
+                self.failure = self.believe(&contacts, floating, motion, missing);
             }
         }
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
@@ -58,6 +67,7 @@ impl Run<'_> {
                 self.record.coulomb_iterations = solution.iterations;
                 self.work.cone_iterations += solution.iterations;
                 self.work.coulomb_programs += 1;
+                self.doubted = (solution.remainder > UNHELD).then_some(solution.multipliers);
                 self.state.reaction = solution.reaction;
                 self.state.motion = Motion::of(solution.motion);
             }

@@ -111,7 +111,7 @@ pub enum Shortfall {
     OutOfBalance {
         /// Which body.
         body: usize,
-        /// The force that nothing carries, as a part of the largest on that body.
+        /// The force that nothing carries, as a part of the largest on that body, or of loads and contact forces.
         part: f64,
     },
     /// The residual is what the rounding of the reaction itself may leave: the tolerance asks for

@@ -73,8 +73,6 @@ struct Bound {
     direction: [f64; 2],
     slope: f64,
     known: f64,
-    /// What more of μ takes from it.
-    shrinking: f64,
 }
 
 /// A contact that may do one thing or another next.
@@ -87,16 +85,17 @@ pub(super) enum Edge {
 }
 
 impl Edge {
-    /// The law by which its rates go on; none if it opens. `rates` are those of a trial, `shrinking` what its bound
-    /// loses as μ changes.
+    /// The law by which its rates go on; none if it opens. `rates` are those of a trial, `growing` what its bound
+    /// gains as μ changes.
     pub(super) fn law(
         self,
         rates: &Local,
-        shrinking: f64,
+        growing: f64,
         (contact, block): (usize, Range<usize>),
         pressing: f64,
     ) -> Option<Law> {
         let friction = rates.limits.friction;
+        let slope = rates.limits.slope(pressing);
         let trial = [0, 1, 2].map(|k| rates.reaction[k] - rates.beyond[k]);
         let state = match self {
             Self::Touching(_) if trial[0] >= 0.0 => State::OPEN,
@@ -104,8 +103,8 @@ impl Edge {
             Self::Touching(Some(direction)) => State::slip(direction, 0.0, friction),
             Self::Verge(direction) => {
                 let along = direction[0] * trial[1] + direction[1] * trial[2];
-                match along + friction * rates.reaction[0] + shrinking > 0.0 {
-                    true => State::slip(direction, 1.0, friction),
+                match along + slope * rates.reaction[0] > growing {
+                    true => State::slip(direction, 1.0, slope),
                     false => State::STICK,
                 }
             }
@@ -154,7 +153,7 @@ impl Local {
             let slides = slip > tolerance;
             return Some(Edge::Touching(slides.then(|| [-w[1] / slip, -w[2] / slip])));
         }
-        let bound = -self.limits.friction * t[0];
+        let bound = self.limits.bound(t[0]);
         let verge = bound > tolerance && small(friction - bound) && small(slip);
         verge.then(|| Edge::Verge([t[1] / friction, t[2] / friction]))
     }
@@ -250,7 +249,6 @@ impl Local {
                     direction: [x, y],
                     slope,
                     known: constant,
-                    shrinking: self.reaction[0],
                 });
             }
             _ => {}
@@ -306,10 +304,9 @@ impl Law {
         })
     }
 
-    /// How its reaction changes along the slip as friction does.
-    pub(super) fn shrinks(&self, friction: f64) -> [f64; 3] {
+    /// How its reaction changes along the slip as its bound gains so much.
+    pub(super) fn grows(&self, by: f64) -> [f64; 3] {
         self.bound.map_or([0.0; 3], |bound| {
-            let by = -friction * bound.shrinking;
             [0.0, by * bound.direction[0], by * bound.direction[1]]
         })
     }

@@ -46,6 +46,7 @@ mod run;
 mod settings;
 
 pub use anderson::Anderson;
+pub use centred::Centred;
 pub(crate) use condition::times;
 pub use gauss_seidel::GaussSeidel;
 pub use history::{Failure, Outcome, Seconds, Shortfall, Status, SweepRecord, Work};

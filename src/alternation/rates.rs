@@ -3,7 +3,7 @@
 //! ```text
 //!        open     ṫ = 0
 //! (D16)  stick    u̇_N = ġ₀,  u̇_T = 0
-//!        slip     u̇_N = ġ₀,  (1 − M) ṫ_T + μ d ṫ_N + ρ M u̇_T + μ̇ d t_N = 0       d, M of (D4)
+//!        slip     u̇_N = ġ₀,  (1 − M) ṫ_T − d ṡ + ρ M u̇_T = 0       d, M of (D4), s(t_N, μ) of (L5)
 //!        u̇ = û̇ + (Gt)˙ + G ṫ + R α̇,      Rᵀ ṫ + ė = 0
 //! ```
 //!
@@ -16,6 +16,7 @@
 use faer::Col;
 
 use super::Outcome;
+use super::centred::Centred;
 use super::condition::Factored;
 use super::finish::{Finish, Point, Springs};
 use super::laws::{self, Edge, Law, Local};
@@ -93,8 +94,9 @@ impl<T> Sides<T> {
     }
 }
 
-/// The laws of a solved state, linear around it (D16).
+/// The laws of a solved state, linear around it (D16), as those of the problem that is solved in its place (D15).
 pub struct Linearised<'a> {
+    centred: &'a Centred<'a>,
     problem: &'a ContactProblem,
     finish: Finish<'a>,
     contacts: Vec<Linear>,
@@ -108,6 +110,8 @@ struct Linear {
     law: Option<Law>,
     /// Normal reaction, scaled.
     pressing: f64,
+    /// What the bound of its friction gains per unit of μ, scaled.
+    per_friction: f64,
     edge: Option<Edge>,
 }
 
@@ -123,10 +127,14 @@ impl<'a> Linearised<'a> {
     /// # Errors
     ///
     /// An outcome that is not of the problem's length.
-    pub fn new(problem: &'a ContactProblem, outcome: &Outcome) -> Result<Option<Self>, Error> {
+    pub fn new(centred: &'a Centred<'a>, outcome: &Outcome) -> Result<Option<Self>, Error> {
         let (reaction, beyond) = (&outcome.reaction, &outcome.verdict.beyond);
+        let problem = centred.solved();
         check_length("reaction", problem.unknowns(), reaction.len())?;
         check_length("displacement", problem.unknowns(), beyond.len())?;
+        let stated = reaction;
+        let reaction = &centred.reaction(stated);
+        let beyond = &centred.displacement(beyond);
         let Some(finish) = Finish::new(problem) else {
             return Ok(None);
         };
@@ -143,11 +151,14 @@ impl<'a> Linearised<'a> {
             Linear {
                 law: local.law(contact, problem.block(contact)),
                 pressing: local.reaction[0],
+                per_friction: per_friction(centred.stated(), contact, stated)
+                    / finish.tangential_root(contact),
                 edge: local.edge(ON_EDGE * largest),
             }
         });
         let contacts: Vec<Linear> = contacts.collect();
         let mut linearised = Self {
+            centred,
             problem,
             finish,
             contacts,
@@ -193,6 +204,10 @@ impl<'a> Linearised<'a> {
             check_length(place, expected, entries.len())?;
             check_finite(place, entries)?;
         }
+        let drive = &Drive {
+            beyond: self.centred.displacement(&drive.beyond),
+            ..drive.clone()
+        };
         if let Some(system) = &self.system {
             let falling = None;
             let found = self.answer(system, drive).map(|at| self.rate(at));
@@ -231,14 +246,14 @@ impl<'a> Linearised<'a> {
             return linear.law.clone();
         };
         let local = local(&self.finish, contact, &rates.reaction, &rates.beyond);
-        let shrinking = self.friction(contact, drive) * linear.pressing;
+        let growing = self.growing(contact, drive);
         let place = (contact, self.problem.block(contact));
-        edge.law(&local, shrinking, place, linear.pressing)
+        edge.law(&local, growing, place, linear.pressing)
     }
 
-    /// μ̇ between scaled reactions.
-    fn friction(&self, contact: usize, drive: &Drive) -> f64 {
-        drive.friction[contact] * self.finish.shape(contact)
+    /// What the bound of friction gains, scaled.
+    fn growing(&self, contact: usize, drive: &Drive) -> f64 {
+        drive.friction[contact] * self.contacts[contact].per_friction
     }
 
     fn factorised(&self, laws: Vec<Law>) -> System {
@@ -257,8 +272,8 @@ impl<'a> Linearised<'a> {
 
     fn answer(&self, system: &System, drive: &Drive) -> Option<Point> {
         let mut at = self.held(drive);
-        let shrinks = |law: &Law| law.shrinks(self.friction(law.contact, drive));
-        let changes = system.laws.iter().map(|law| (law, shrinks(law)));
+        let grows = |law: &Law| law.grows(self.growing(law.contact, drive));
+        let changes = system.laws.iter().map(|law| (law, grows(law)));
         self.finish.add_to(&mut at, changes);
         let asked = laws::missing(&system.laws, |contact| {
             local(&self.finish, contact, &at.reaction, &at.beyond)
@@ -279,7 +294,9 @@ impl<'a> Linearised<'a> {
         Some(at)
     }
 
-    fn rate(&self, at: Point) -> Rate {
+    fn rate(&self, mut at: Point) -> Rate {
+        self.centred.turn_back(&mut at.reaction);
+        self.centred.turn_back_displacement(&mut at.beyond);
         Rate {
             motion: self.finish.amplitudes(&at.drift),
             reaction: at.reaction,
@@ -290,6 +307,16 @@ impl<'a> Linearised<'a> {
     fn size(&self, reaction: impl Iterator<Item = f64>) -> f64 {
         let scaled = reaction.zip(&self.finish.roots).map(|(t, root)| t / root);
         scaled.fold(0.0, f64::hypot)
+    }
+}
+
+/// What the bound of a contact's friction gains per unit of μ, in newton: nothing where a cap bounds it.
+fn per_friction(stated: &ContactProblem, contact: usize, reaction: &[f64]) -> f64 {
+    let (limits, normal) = (stated.limits(contact), reaction[stated.normals()[contact]]);
+    let of_pressure = limits.shear - limits.friction * normal;
+    match of_pressure > 0.0 && of_pressure < limits.cap {
+        true => -normal,
+        false => 0.0,
     }
 }
 

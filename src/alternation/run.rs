@@ -74,6 +74,8 @@ pub(super) struct Run<'a> {
     pub(super) work: Work,
     pub(super) shortfall: Option<Shortfall>,
     pub(super) failure: Option<Failure>,
+    /// Where a program whose equilibrium cannot be had would move the bodies.
+    pub(super) doubted: Option<Vec<f64>>,
 }
 
 impl<'a> Run<'a> {
@@ -110,6 +112,7 @@ impl<'a> Run<'a> {
             work: Work::default(),
             shortfall: None,
             failure: None,
+            doubted: None,
         }
     }
 

@@ -15,8 +15,8 @@ use super::orthotropic::{components, mandel};
 use super::{Material, Model, Orthotropic};
 use crate::error::Error;
 
-/// Poisson's ratio from which volume change is averaged.
-const NEARLY_INCOMPRESSIBLE: f64 = 0.45;
+/// Poisson's ratio from which volume change is averaged: 0.45, however that is stated and rounded.
+const NEARLY_INCOMPRESSIBLE: f64 = 0.45 - 1e-9;
 
 /// The stress of a strain at a point, within a model.
 #[derive(Clone, Copy, Debug, PartialEq)]

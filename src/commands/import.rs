@@ -12,7 +12,7 @@ use dpana::mesh_file::gmsh;
 use dpana::report::replace_file;
 use dpana::scene::{MeshSource, NodalFile, SceneLoad, SceneTemperature};
 
-use super::outputs::check_output;
+use super::outputs::{check_output, is_standard};
 use super::scene_file::tell;
 
 #[derive(Args)]
@@ -25,6 +25,11 @@ pub(crate) struct Import {
 }
 
 pub(crate) fn import(arguments: &Import) -> Result<ExitCode, Box<dyn Error>> {
+    if is_standard(&arguments.out) {
+        return Err(
+            "--out: `-` is no name for the meshes beside the scene; expected a file".into(),
+        );
+    }
     check_output("--out", &arguments.out, &arguments.deck)?;
     let mut scene = tell(Deck::from_file(&arguments.deck)?).scene;
     // Meshes and groups are looked at before anything is written.

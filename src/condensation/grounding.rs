@@ -6,7 +6,8 @@
 //!
 //! The springs carry exactly what the loads and contact forces leave of (C3): nothing in
 //! equilibrium. Their stiffness therefore changes neither reactions nor displacements,
-//! once the rigid motion `R α` is added; it is only of the size of its neighbours.
+//! once the rigid motion `R α` is added; it is only of the size of its neighbours, before nodes that move as a rigid body
+//! are tied (B17): of these alone nothing but round-off would be left.
 
 use std::borrow::Cow;
 
@@ -82,15 +83,20 @@ impl Grounding {
         }
     }
 
-    /// (C12); the stiffness itself where the supports hold the body.
-    pub(super) fn ground<'a>(&self, stiffness: &'a CsMat<f64>) -> Cow<'a, CsMat<f64>> {
+    /// (C12); the stiffness itself where the supports hold the body. `untied`: before any nodes were tied.
+    pub(super) fn ground<'a>(
+        &self,
+        stiffness: &'a CsMat<f64>,
+        untied: &CsMat<f64>,
+    ) -> Cow<'a, CsMat<f64>> {
         if self.springs.is_empty() {
             return Cow::Borrowed(stiffness);
         }
         let mut grounded = stiffness.clone();
         for &dof in &self.springs {
+            let own = untied.get(dof, dof).copied().unwrap_or_default();
             if let Some(entry) = grounded.get_mut(dof, dof) {
-                *entry *= 2.0;
+                *entry += entry.max(own);
             }
         }
         Cow::Owned(grounded)

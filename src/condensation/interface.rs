@@ -93,6 +93,9 @@ impl Interface {
         let (mut unknowns, mut depends) = (0, false);
         for interface in &nodes {
             let held = held(interface.node);
+            // Of a node's axes some may depend on others, though contacts see none of these.
+            let mut dofs = (0..dimension).map(|axis| interface.node * dimension + axis);
+            depends |= tied.is_some_and(|tied| dofs.any(|dof| tied.of(dof).is_some()));
             for &(contact, weight) in &touches[&interface.node] {
                 for (row, direction) in unknown_rows(&surface.nodes[contact]).enumerate() {
                     let at = offsets[contact] + row;
@@ -104,7 +107,6 @@ impl Interface {
                                 (Some(_), _) => given[at].push((dof, coefficient)),
                                 (None, None) => seen[at].push((dof, coefficient)),
                                 (None, Some(of)) => {
-                                    depends = true;
                                     given[at].push((dof, coefficient));
                                     let terms = of.terms.iter();
                                     seen[at].extend(terms.map(|&(q, a)| (q, a * coefficient)));

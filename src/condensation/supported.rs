@@ -70,7 +70,7 @@ impl SupportedBody<'_> {
 
         Stage::Factorisation.begin();
         let start = Instant::now();
-        let grounded = self.grounding.ground(stiffness);
+        let grounded = self.grounding.ground(stiffness, &self.stiffness);
         let matrix = Matrix {
             stiffness: &grounded,
             frames: &frames,
@@ -170,7 +170,7 @@ impl SupportedBody<'_> {
             &contact,
         )
         .ok_or_else(|| self.too_large("ordering"))?;
-        let grounded = self.grounding.ground(&self.stiffness);
+        let grounded = self.grounding.ground(&self.stiffness, &self.stiffness);
         let matrix = Matrix {
             stiffness: &grounded,
             frames: &frames,

@@ -35,6 +35,9 @@ pub(crate) struct CoulombSolution {
     pub reaction: Vec<f64>,
     /// Rigid motion α: `u = û + G t + R α`.
     pub motion: Vec<f64>,
+    /// The multipliers of the equilibrium rows alone: if these cannot hold, a motion on which the load does more work
+    /// than any reaction takes (Farkas).
+    pub multipliers: Vec<f64>,
     /// Size of `Rᵀ t + e` relative to that of `e`, as the contacts measure it.
     pub remainder: f64,
     /// Interior-point iterations.
@@ -135,6 +138,9 @@ impl<'a> CoulombProgram<'a> {
         Some(CoulombSolution {
             reaction,
             motion: self.basis.amplitudes(&beta),
+            multipliers: self
+                .basis
+                .amplitudes(&solution.multipliers[..carried.len()]),
             remainder: if size > 0.0 { left / size } else { left },
             iterations: solution.iterations,
         })

@@ -15,6 +15,7 @@ use super::frame::Stance;
 use super::held::Directions;
 use super::mortar::{self, Coverage, MortarNode, Surface};
 use super::pair::{Coupling, PairSurface, check_pair_body};
+use super::repeated;
 use super::{ContactNode, ContactPair, OppositeNodes};
 use crate::body::{Body, Facet, Model};
 use crate::error::Error;
@@ -182,12 +183,14 @@ fn contacts(
                 kept
             },
             initial_gap: node.initial_gap,
-            area: node.weight * body.model.depth(),
+            // Plates of unlike thickness meet over the thinner one.
+            area: node.weight * body.model.depth().min(across.model.depth()),
             bulge: node.bulge,
             second,
             rim: false,
         });
     }
+    let mut contacts = repeated::join(contacts, scene.bodies);
     scene.boundaries[own.body].mark_rims(&mut contacts, &own.facets, Some(&across.mesh));
     let [met, met_across] = coverage.met();
     let (rounded, largest_bulge) = coverage.rounded([&met, &met_across]);

@@ -3,13 +3,16 @@
 //! The one with fewer facets on which the other side ends: where it ends within a facet, contacts have to
 //! move or to be joined, and a pressure is steepest where a body ends, on its own facets. Of two sides with
 //! as many it is the one with the larger facets there, as small ones on a large one that ends see it as a
-//! punch. Which of the two a scene names first decides only where both are equal in this, as where neither
-//! ends on the other.
+//! punch. Where neither ends on the other and one is much finer, it is that one: between contacts of the coarser
+//! one a body that bends would go through it. Which of the two a scene names first decides only where both are
+//! equal in this.
 //!
 //! But a side that is much stiffer does not carry: its
 //! own compliance would drown in that of the other side, `G = G₁ + P G₂ Pᵀ`, and with it
 //! all but the patterns of pressure that the other side's mesh can tell apart. Compliance of
 //! the softer side is there for every contact, whatever the meshes.
+
+use std::cmp::Ordering;
 
 use super::mortar::{Coverage, Ends, Surface};
 use crate::body::{Body, Facet};
@@ -19,6 +22,9 @@ use crate::error::Error;
 /// costs two digits of sixteen there, and from ten times that on, if it is the finer one, also
 /// sweeps by the dozen.
 const MUCH_STIFFER: f64 = 1e2;
+
+/// Ratio of facets' lengths, about, beyond which the finer side carries.
+const MUCH_FINER: f64 = 2.0;
 
 /// Part by which areas of facets differ that are equal.
 const ROUND_OFF: f64 = 1e-6;
@@ -39,22 +45,30 @@ pub(super) fn carrying<'a>(
     }
     let of_first = Coverage::new(first, second, place)?;
     let ends = of_first.ends();
-    if ends.facets == 0 || young[1] > MUCH_STIFFER * young[0] {
+    let [own, across] = of_first.nodes_met().map(|nodes| nodes as f64);
+    let finer = across > own * MUCH_FINER.powi(first.mesh.dimension as i32 - 1);
+    if ends.facets == 0 && !finer || young[1] > MUCH_STIFFER * young[0] {
         return Ok((of_first, false));
     }
     let of_second = Coverage::new(second, first, place)?;
     Ok(
-        match of_second.meets() && is_better(of_second.ends(), ends) {
+        match of_second.meets() && is_better(of_second.ends(), ends, finer) {
             true => (of_second, true),
             false => (of_first, false),
         },
     )
 }
 
-/// Whether a side on which the other one has these ends should carry rather than one with those.
-fn is_better(these: Ends, those: Ends) -> bool {
+/// Whether a side on which the other one has these ends should carry rather than one with those; `finer`:
+/// whether it is much finer.
+fn is_better(these: Ends, those: Ends, finer: bool) -> bool {
     let larger = these.area > those.area * (1.0 + ROUND_OFF);
-    these.facets < those.facets || these.facets == those.facets && larger
+    match these.facets.cmp(&those.facets) {
+        Ordering::Less => true,
+        Ordering::Equal if these.facets == 0 => finer,
+        Ordering::Equal => larger,
+        Ordering::Greater => false,
+    }
 }
 
 /// Least Young's modulus at a surface, in pascal.

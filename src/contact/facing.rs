@@ -26,6 +26,9 @@ const FACING: f64 = 1e-6;
 /// Cosine above which a neighbouring facet continues the surface and does not turn a corner.
 const SMOOTH: f64 = 0.5;
 
+/// Cosine above which a neighbouring facet goes straight on.
+const STRAIGHT_ON: f64 = 0.99;
+
 /// Part of the way to the middle of the next facet beyond which a body goes on.
 const BEYOND: f64 = 0.1;
 
@@ -95,23 +98,33 @@ impl<'a> Boundary<'a> {
         }
     }
 
-    /// Where some lines of the boundary end, the direction in which the boundary goes on from there, in
-    /// metre; none of faces.
+    /// Where some lines of the boundary end, the direction in which the boundary turns away from there, in
+    /// metre; none of faces, nor where it goes straight on.
     pub(super) fn flanks(&self, facets: &[Facet]) -> HashMap<usize, Vector3<f64>> {
         let mesh = &self.body.mesh;
         if mesh.dimension != 2 {
             return HashMap::new();
         }
-        let mut reached: HashMap<usize, usize> = HashMap::new();
-        for &node in facets.iter().flat_map(|facet| facet.corners(2)) {
-            *reached.entry(node).or_default() += 1;
+        let mut reached: HashMap<usize, Vec<Vector3<f64>>> = HashMap::new();
+        for facet in facets {
+            let normal = Vector3::from(mesh.facet_geometry(facet).normal);
+            for &node in facet.corners(2) {
+                reached.entry(node).or_default().push(normal);
+            }
         }
         let within: HashSet<Vec<usize>> = facets.iter().map(key).collect();
         let beyond = self.facets.iter().filter(|at| !within.contains(&key(at)));
         let mut flanks: HashMap<usize, Vector3<f64>> = HashMap::new();
         for facet in beyond {
-            let ends = facet.corners(2).iter();
-            for &node in ends.filter(|node| reached.get(node) == Some(&1)) {
+            let normal = Vector3::from(mesh.facet_geometry(facet).normal);
+            for &node in facet.corners(2) {
+                let ends_here = match reached.get(&node).map(Vec::as_slice) {
+                    Some([last]) => last.dot(&normal) < STRAIGHT_ON,
+                    _ => false,
+                };
+                if !ends_here {
+                    continue;
+                }
                 let from = Vector3::from(mesh.nodes[node]);
                 let others = facet.nodes.iter().filter(|other| **other != node);
                 let ways = others.map(|&other| Vector3::from(mesh.nodes[other]) - from);

@@ -4,8 +4,9 @@
 //! facets f, g with  n_f · n_g < −½,   |(c_g − c_f) · m| ≤ d,  m ∥ n_f − n_g,   boxes that overlap across m
 //! ```
 //!
-//! Of one skin, facets that share a node do not face each other, and those that face each other are put on two sides so
-//! that neighbours are on the same one.
+//! The two sides of a wall do not face each other. Of one skin, facets that face each
+//! other are put on two sides so that neighbours are on the same one. Of two skins, facets that face the other one are
+//! put together as far as they run on without a corner.
 //!
 //! c and n: centre and outward normal of a facet. Facets lie in a grid of boxes as large as the largest of them, so that each is
 //! compared with its neighbours only.
@@ -14,6 +15,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::Vector3;
 
+use super::mortar::Overlaps;
 use crate::body::{Body, Facet};
 
 /// Cosine between outward normals below which facets face each other: within 60 degrees.
@@ -35,28 +37,56 @@ struct Side {
     dimension: usize,
 }
 
-/// The facets of two bodies that face one of the other within a distance, in metre, body by body; none of either
-/// where nothing does.
-pub(crate) fn facing_skins(bodies: [&Body; 2], distance: f64) -> [Vec<Facet>; 2] {
+/// The facets of two bodies that face one of the other within a distance, in metre, body by body: together those that run
+/// on without a corner on either; none where nothing does.
+pub(crate) fn facing_skins(bodies: [&Body; 2], distance: f64) -> Vec<[Vec<Facet>; 2]> {
     let [first, second] = bodies.map(|body| skin(body, body.mesh.boundary_facets()));
-    let pairs = facing(&first, &second, distance);
-    let of = |side: &[Side], at: fn(&[usize; 2]) -> usize| {
-        let faced: BTreeSet<usize> = pairs.iter().map(at).collect();
-        faced.into_iter().map(|at| side[at].facet.clone()).collect()
-    };
-    [of(&first, |pair| pair[0]), of(&second, |pair| pair[1])]
+    let overlaps = Overlaps::new(&bodies[0].mesh, &bodies[1].mesh);
+    let pairs = facing(&first, &second, distance, &overlaps).into_iter();
+    let own = first.len();
+    let pairs: Vec<[usize; 2]> = pairs.map(|[a, b]| [a, own + b]).collect();
+    let sides: Vec<Side> = first.into_iter().chain(second).collect();
+    // A facet of one body only ever faces one of the other.
+    let parts = parts(&sides, &pairs, |side| side >= own).unwrap_or_default();
+    parts
+        .into_iter()
+        .map(|part| part.map(|side| facets(&sides, side)))
+        .collect()
 }
 
 /// Those of a body's `facets`, running outward, that face another one of them within a distance, in metre, on two
 /// sides; none of either where nothing does, nothing where they do not come apart into two sides.
 pub(crate) fn facing_itself(
     body: &Body,
-    facets: Vec<Facet>,
+    facets_of_skin: Vec<Facet>,
     distance: f64,
 ) -> Option<[Vec<Facet>; 2]> {
-    let sides = skin(body, facets);
-    let mut pairs = facing(&sides, &sides, distance);
-    pairs.retain(|&[a, b]| a < b && !sides[a].neighbours(&sides[b]));
+    let sides = skin(body, facets_of_skin);
+    let overlaps = Overlaps::new(&body.mesh, &body.mesh);
+    let mut pairs = facing(&sides, &sides, distance, &overlaps);
+    pairs.retain(|[a, b]| a < b);
+    let mut found = [Vec::new(), Vec::new()];
+    for part in parts(&sides, &pairs, |_| false)? {
+        for (all, side) in found.iter_mut().zip(part) {
+            all.extend(facets(&sides, side));
+        }
+    }
+    Some(found)
+}
+
+fn facets(sides: &[Side], numbers: Vec<usize>) -> Vec<Facet> {
+    let facets = numbers.into_iter().map(|at| sides[at].facet.clone());
+    facets.collect()
+}
+
+/// Facets by number on two sides, ascending, part by part: those of a pair are on different sides of a part, and those
+/// that share a node and run on without a corner on one. Nothing where that contradicts itself. `of_second`: whether a
+/// facet is of the second of two meshes.
+fn parts(
+    sides: &[Side],
+    pairs: &[[usize; 2]],
+    of_second: impl Fn(usize) -> bool,
+) -> Option<Vec<[Vec<usize>; 2]>> {
     let faced: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
     let mut links: BTreeMap<usize, Vec<(usize, bool)>> = BTreeMap::new();
     let mut link = |a: usize, b: usize, turns: bool| {
@@ -64,10 +94,10 @@ pub(crate) fn facing_itself(
         links.entry(b).or_default().push((a, turns));
     };
     pairs.iter().for_each(|&[a, b]| link(a, b, true));
-    let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
+    let mut at_node: HashMap<(bool, usize), Vec<usize>> = HashMap::new();
     for &facet in &faced {
         for node in &sides[facet].facet.nodes {
-            let others = at_node.entry(*node).or_default();
+            let others = at_node.entry((of_second(facet), *node)).or_default();
             let along = |other: &&usize| sides[**other].normal.dot(&sides[facet].normal) > -OPPOSED;
             others
                 .iter()
@@ -76,42 +106,38 @@ pub(crate) fn facing_itself(
             others.push(facet);
         }
     }
-    let second = two_sides(&faced, &links)?;
-    let of = |on: bool| {
-        let of_side = second.iter().filter(|(_, second)| **second == on);
-        of_side.map(|(&at, _)| sides[at].facet.clone()).collect()
-    };
-    Some([of(false), of(true)])
-}
-
-/// Which of some facets are on the second side, from links that change sides or do not; nothing where they contradict
-/// each other.
-fn two_sides(
-    faced: &BTreeSet<usize>,
-    links: &BTreeMap<usize, Vec<(usize, bool)>>,
-) -> Option<BTreeMap<usize, bool>> {
-    let mut second = BTreeMap::new();
-    for &start in faced {
-        let mut open = match second.contains_key(&start) {
-            true => Vec::new(),
+    let mut side_of = BTreeMap::new();
+    let mut parts = Vec::new();
+    for &start in &faced {
+        let mut part = [Vec::new(), Vec::new()];
+        let mut open = match side_of.contains_key(&start) {
+            true => continue,
             false => vec![(start, false)],
         };
-        while let Some((at, side)) = open.pop() {
-            match second.insert(at, side) {
-                Some(before) if before != side => return None,
+        while let Some((at, second)) = open.pop() {
+            match side_of.insert(at, second) {
+                Some(before) if before != second => return None,
                 Some(_) => {}
                 None => {
+                    part[usize::from(second)].push(at);
                     let next = links.get(&at).into_iter().flatten();
-                    open.extend(next.map(|&(next, turns)| (next, side != turns)));
+                    open.extend(next.map(|&(next, turns)| (next, second != turns)));
                 }
             }
         }
+        part.iter_mut().for_each(|side| side.sort_unstable());
+        parts.push(part);
     }
-    Some(second)
+    Some(parts)
 }
 
 /// Pairs of facets that face each other within a distance, in metre.
-fn facing(first: &[Side], second: &[Side], distance: f64) -> Vec<[usize; 2]> {
+fn facing(
+    first: &[Side],
+    second: &[Side],
+    distance: f64,
+    overlaps: &Overlaps<'_>,
+) -> Vec<[usize; 2]> {
     let extent = |side: &Side| (side.high - side.low).amax();
     let extents = first.iter().chain(second).map(extent);
     let largest = extents.fold(distance, f64::max);
@@ -125,7 +151,7 @@ fn facing(first: &[Side], second: &[Side], distance: f64) -> Vec<[usize; 2]> {
         let near = around(key(side.centre)).filter_map(|key| grid.get(&key));
         let facing = near
             .flatten()
-            .filter(|at| side.faces(&second[**at], distance));
+            .filter(|at| side.faces(&second[**at], distance, overlaps));
         pairs.extend(facing.map(|&other| [own, other]));
     }
     pairs
@@ -160,20 +186,17 @@ fn skin(body: &Body, facets: Vec<Facet>) -> Vec<Side> {
 }
 
 impl Side {
-    fn neighbours(&self, other: &Self) -> bool {
-        self.facet
-            .nodes
-            .iter()
-            .any(|node| other.facet.nodes.contains(node))
-    }
-
-    fn faces(&self, other: &Self, distance: f64) -> bool {
+    fn faces(&self, other: &Self, distance: f64, overlaps: &Overlaps<'_>) -> bool {
         if self.normal.dot(&other.normal) >= OPPOSED {
             return false;
         }
         let across = (self.normal - other.normal).normalize();
         let gap = across.dot(&(other.centre - self.centre));
-        gap.abs() <= distance && self.covers(other, across, gap)
+        let far_side = || {
+            let deep = -gap > ROUND_OFF * (self.high - self.low).amax();
+            deep && overlaps.is_far_side([self.centre, other.centre], across, -gap)
+        };
+        gap.abs() <= distance && self.covers(other, across, gap) && !far_side()
     }
 
     /// Whether the two lie over each other, seen `across`, and do not only touch at an edge.
@@ -210,17 +233,16 @@ mod tests {
         // A unit cube of 4³ cells, 0.01 above the middle of a plate of 3 × 3 m with cells of 0.25 m.
         let cube = block([1.0, 1.0, 0.01], [2.0, 2.0, 1.01], 4);
         let plate = block([0.0, 0.0, -0.5], [3.0, 3.0, 0.0], 12);
-        let [under, above] = facing_skins([&cube, &plate], 0.02);
+        let found = facing_skins([&cube, &plate], 0.02);
+        let [[under, above]] = &found[..] else {
+            unreachable!("{found:?}")
+        };
         assert_eq!(under.len(), 16);
         // 4 × 4 under the cube; those around it only touch it at an edge.
         assert_eq!(above.len(), 16);
-        let swapped = facing_skins([&plate, &cube], 0.02);
+        let swapped = &facing_skins([&plate, &cube], 0.02)[0];
         assert_eq!([swapped[1].len(), swapped[0].len()], [16, 16]);
-        assert!(
-            facing_skins([&cube, &plate], 0.005)
-                .iter()
-                .all(Vec::is_empty)
-        );
+        assert!(facing_skins([&cube, &plate], 0.005).is_empty());
     }
 
     #[test]
@@ -247,6 +269,35 @@ mod tests {
         // Side by side: the facets at x = 1 and x = 1.01, none at x = 0 and 2.01, nor above and below.
         let [left, right] = [0.0, 1.01].map(|x| block([x, 0.0, 0.0], [x + 1.0, 1.0, 1.0], 2));
         let found = facing_skins([&left, &right], 0.1);
-        assert_eq!(found.map(|facets| facets.len()), [4, 4]);
+        assert_eq!(lengths(&found), [[4, 4]]);
+    }
+
+    #[test]
+    fn faces_on_both_sides_of_a_corner_are_apart_and_the_far_sides_of_thin_plates_are_in_nothing() {
+        // An L of 3 × 3 × 3 cells with a cube in its corner, which meets both of its faces.
+        let line = [0.0, 1.0, 2.0, 3.0];
+        let whole = box_mesh(&line, &line, &line, CellKind::Hex8).unwrap();
+        let solid: Vec<usize> = (0..27)
+            .filter(|cell| cell % 3 == 0 || cell / 9 == 0)
+            .collect();
+        let corner = samples::body(whole.part(&solid), Model::Solid, 0.3);
+        let cube = block([1.0, 0.0, 1.0], [2.0, 3.0, 2.0], 1);
+        let found = facing_skins([&corner, &cube], 0.1);
+        assert_eq!(lengths(&found), [[3, 1], [3, 1]]);
+        // Two plates, as thin as a tenth of their distance allows: the outer faces are 0.1 behind each other.
+        let [low, high] = [0.0, 0.05].map(|z| block([0.0, 0.0, z], [1.0, 1.0, z + 0.05], 2));
+        assert_eq!(lengths(&facing_skins([&low, &high], 0.3)), [[4, 4]]);
+        assert_eq!(
+            facing_itself(&low, low.mesh.boundary_facets(), 0.3),
+            Some([vec![], vec![]])
+        );
+        // One in the other by a fifth of its wall touches it.
+        let deeper = block([0.0, 0.0, 0.04], [1.0, 1.0, 0.09], 2);
+        assert_eq!(lengths(&facing_skins([&low, &deeper], 0.3)), [[4, 4]]);
+    }
+
+    fn lengths(parts: &[[Vec<Facet>; 2]]) -> Vec<[usize; 2]> {
+        let lengths = parts.iter().map(|part| part.each_ref().map(Vec::len));
+        lengths.collect()
     }
 }

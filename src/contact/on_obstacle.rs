@@ -3,6 +3,8 @@
 //! Beside an axisymmetric body an obstacle goes around the axis: a plane is a cone, or a disc, and a
 //! circle a ball. What stands on the axis sees only along it, to the apex of a cone.
 
+use std::collections::HashMap;
+
 use nalgebra::Vector3;
 
 use super::corner_weights::{Footing, footings, held_directions};
@@ -14,6 +16,15 @@ use super::repeated;
 use super::{Closest, ContactNode, ContactPair, Obstacle};
 use crate::body::{Axis, Body, Facet};
 use crate::error::Error;
+
+/// Distance from the obstacle, as part of a facet, that is none.
+const ON_IT: f64 = 1e-9;
+
+/// Part of a facet from which a corner of the obstacle is looked at.
+const BACK: f64 = 1e-3;
+
+/// Cosine between normals from which they are those of one side of a corner.
+const SAME: f64 = 0.99999;
 
 /// The contacts of a pair with a rigid obstacle.
 pub(super) fn on_obstacle(
@@ -38,18 +49,29 @@ pub(super) fn on_obstacle(
         .filter(|&f| facets[f].is_quadratic(body.mesh.dimension))
         .collect();
     let (rounded, largest_bulge) = bulges.rounded(&every);
+    let corners = match obstacle {
+        Obstacle::Profile(_) | Obstacle::Triangulated(_) | Obstacle::Turned { .. } => {
+            sides(body, &facets)
+        }
+        _ => HashMap::new(),
+    };
     for footing in footings(body, &facing, &bulges, gap)? {
         let node = footing.node;
-        let closest = view.closest(node, view.place(&footing, scene))?;
+        let place = view.place(&footing, scene);
+        let closest = view.closest(node, place)?;
         if closest.beyond {
             continue;
         }
+        let closest = match corners.get(&node) {
+            Some(side) => view.at_corner(node, place, closest, *side)?,
+            None => closest,
+        };
         match view.contact(footing, closest, scene)? {
             Some(contact) => contacts.push(contact),
             None => left_out.push(node),
         }
     }
-    let mut contacts = repeated::join(contacts, body);
+    let mut contacts = repeated::join(contacts, scene.bodies);
     boundary.mark_rims(&mut contacts, &pair.facets, None);
     Ok(PairSurface {
         coupling: Coupling {
@@ -62,6 +84,26 @@ pub(super) fn on_obstacle(
         facets,
         left_out,
     })
+}
+
+/// Sum of the outward normals of the facets at every node, and the size of the largest, in metre.
+fn sides(body: &Body, facets: &[Facet]) -> HashMap<usize, (Vector3<f64>, f64)> {
+    let mut sides: HashMap<usize, (Vector3<f64>, f64)> = HashMap::new();
+    for facet in facets {
+        let normal = Vector3::from(body.mesh.facet_geometry(facet).normal);
+        let at = |node: usize| Vector3::from(body.mesh.nodes[node]);
+        let from = facet
+            .nodes
+            .iter()
+            .map(|node| at(*node) - at(facet.nodes[0]));
+        let size = from.map(|way| way.norm()).fold(0.0, f64::max);
+        for node in &facet.nodes {
+            let (sum, most) = sides.entry(*node).or_default();
+            *sum += normal;
+            *most = most.max(size);
+        }
+    }
+    sides
 }
 
 /// An obstacle, as a body sees it.
@@ -108,6 +150,30 @@ impl View<'_> {
         Ok(Closest {
             distance: closest.distance / along.abs(),
             direction: [0.0, along.signum(), 0.0],
+            ..closest
+        })
+    }
+
+    /// The obstacle from a place on it: where that is a corner, which has every normal between its sides, the facets of
+    /// the body say which.
+    fn at_corner(
+        &self,
+        node: usize,
+        place: [f64; 3],
+        closest: Closest,
+        (outward, size): (Vector3<f64>, f64),
+    ) -> Result<Closest, Error> {
+        if closest.distance.abs() > ON_IT * size {
+            return Ok(closest);
+        }
+        let Some(outward) = outward.try_normalize(0.0) else {
+            return Ok(closest);
+        };
+        let back = Vector3::from(place) - outward * (BACK * size);
+        let direction = self.closest(node, back.into())?.direction;
+        let turned = Vector3::from(direction).dot(&Vector3::from(closest.direction)) < SAME;
+        Ok(Closest {
+            direction: if turned { direction } else { closest.direction },
             ..closest
         })
     }

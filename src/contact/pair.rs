@@ -13,8 +13,9 @@ pub struct ContactPair {
     /// Where the scene says so, for messages, such as `contacts[0]`.
     pub place: String,
     /// Index of the body that the pair names first. Of the two sides that one carries the
-    /// contacts that has fewer facets on which the other one ends, and if they are equal in that, the
-    /// first one; but a side that is more than a hundred times as stiff as the other never does.
+    /// contacts that has fewer facets on which the other one ends, where neither ends one that is more than twice as fine,
+    /// and else the first one; but a side that is more than a hundred times as stiff as the other
+    /// never does.
     /// On flat faces either choice is exact for a uniform pressure;
     /// on curved ones the coarser side averages over the other's facets, while the finer
     /// one follows them in its pressures.

@@ -56,8 +56,12 @@ pub(super) fn read_law<'a, 'c>(
     match card.name.as_str() {
         "SURFACEINTERACTION" => {
             card.only(&["NAME"])?;
+            let name = card.need("NAME")?;
+            if laws.iter().any(|law| law.name == name) {
+                return Err(card.error(format!("surface interaction `{name}` once more")));
+            }
             laws.push(Interaction {
-                name: card.need("NAME")?.to_owned(),
+                name: name.to_owned(),
                 normal: Normal::Apart,
                 ..Interaction::glue()
             });

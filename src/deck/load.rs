@@ -204,9 +204,17 @@ impl Reader<'_> {
                 given.extend(self.component(turns, axis).map(|at| (slot(at), force)));
                 continue;
             }
-            let (true, Some(part)) = (axis < self.dimension(), self.parts.of_node[node]) else {
+            let Some(part) = self.parts.of_node[node] else {
                 continue;
             };
+            if axis >= self.dimension() {
+                if force == 0.0 {
+                    continue;
+                }
+                let reason = "elements have no such degree of freedom here; a moment acts on the reference node of *RIGID \
+                              BODY or *COUPLING";
+                return Err(row.error(reason));
+            }
             let slot = match own {
                 true => Slot::OwnForce(node, axis),
                 false => Slot::Force(node, axis),

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::elastic::{Elastic, elastic, expansion};
-use super::orientation::{Orientation, orientations};
+use super::orientation::{Orientation, Orientations};
 use super::statement::Statement;
 use crate::error::Error;
 use crate::mesh_file::abaqus::{Card, Contents, Space};
@@ -35,6 +35,14 @@ pub(super) struct Section {
     orientation: Option<Orientation>,
 }
 
+impl Section {
+    /// Whether elements are the same in either.
+    fn is_alike(&self, other: &Self) -> bool {
+        let filled = |of: &Self| (of.material, of.orientation, of.thickness);
+        filled(self) == filled(other)
+    }
+}
+
 /// Materials and sections of a deck.
 #[derive(Debug, Default)]
 pub(super) struct Materials {
@@ -51,17 +59,20 @@ impl Materials {
         for (_, card) in model {
             read.read_material(card)?;
         }
-        let orientations = orientations(statement)?;
+        let orientations = Orientations::new(statement, contents)?;
         const NONE: usize = usize::MAX;
         read.of_cell = vec![NONE; contents.elements.len()];
         for &(scope, card) in model.iter().filter(|(_, card)| card.name == "SOLIDSECTION") {
             let mut section = read.section(scope, card, contents)?;
-            if let Some(name) = card.get("ORIENTATION") {
-                let unknown = || card.error(format!("orientation `{name}` is not known"));
-                section.orientation = Some(*orientations.get(name).ok_or_else(unknown)?);
-            }
+            section.orientation = orientations.of((scope, card), contents)?;
             let set = card.need("ELSET")?;
             for cell in contents.cells.members(card.head(scope), set)? {
+                let before = read.sections.get(read.of_cell[cell]);
+                if before.is_some_and(|before| !before.is_alike(&section)) {
+                    let label = contents.elements[cell].label;
+                    let reason = format!("element {label} is in another section before");
+                    return Err(card.error(reason));
+                }
                 read.of_cell[cell] = read.sections.len();
             }
             read.sections.push(section);
@@ -142,7 +153,12 @@ impl Materials {
                     expansion: [0.0; 3],
                 });
             }
-            "ELASTIC" => last.ok_or_else(orphan)?.elastic = Some(elastic(card)?),
+            "ELASTIC" => {
+                let material = last.ok_or_else(orphan)?;
+                if material.elastic.replace(elastic(card)?).is_some() {
+                    return Err(card.error(format!("twice in material `{}`", material.name)));
+                }
+            }
             "DENSITY" => {
                 let row = card.row("one density")?;
                 let density = row.number(0, "a density", None)?;

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeMap;
 
-use super::statement::Statement;
+use super::statement::{Stated, Statement};
 use super::transform::{minus, numbers};
 use crate::error::Error;
-use crate::mesh_file::abaqus::{Card, Space};
+use crate::mesh_file::abaqus::{Card, Contents, Scope, Space};
 use crate::scene::{SceneAxes, SceneLine};
 
-/// The orientations of a deck, by name.
-pub(super) type Orientations = BTreeMap<String, Orientation>;
+/// The orientations of a deck, by full name: one of a part turns with every instance of it.
+pub(super) struct Orientations(BTreeMap<String, Orientation>);
 
 /// Points a, b and c of a deck.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,17 +20,35 @@ pub(super) enum Orientation {
     Cylindrical([[f64; 3]; 2]),
 }
 
-/// Reads them all.
-pub(super) fn orientations(statement: &Statement<'_, '_>) -> Result<Orientations, Error> {
-    let mut found = Orientations::new();
-    let model = statement.model.iter();
-    for (_, card) in model.filter(|(_, card)| card.name == "ORIENTATION") {
-        let name = card.need("NAME")?.to_owned();
-        if found.insert(name, Orientation::read(card)?).is_some() {
-            return Err(card.error("an orientation of this name stands before"));
+impl Orientations {
+    /// Reads them all.
+    pub(super) fn new(statement: &Statement<'_, '_>, contents: &Contents) -> Result<Self, Error> {
+        let mut found = BTreeMap::new();
+        let model = statement.model.iter();
+        for &(scope, card) in model.filter(|(_, card)| card.name == "ORIENTATION") {
+            let name = contents.nodes.full(scope, card.need("NAME")?);
+            let stated = Orientation::read(card)?.placed(contents.nodes.scope(scope));
+            if found.insert(name, stated).is_some() {
+                return Err(card.error("an orientation of this name stands before"));
+            }
         }
+        Ok(Self(found))
     }
-    Ok(found)
+
+    /// The one that a card speaks of: its part's own, or the model's.
+    pub(super) fn of(
+        &self,
+        (scope, card): Stated<'_, '_>,
+        contents: &Contents,
+    ) -> Result<Option<Orientation>, Error> {
+        let Some(name) = card.get("ORIENTATION") else {
+            return Ok(None);
+        };
+        let own = self.0.get(&contents.nodes.full(scope, name));
+        let found = own.or_else(|| self.0.get(name));
+        let unknown = || card.error(format!("orientation `{name}` is not known"));
+        found.copied().map(Some).ok_or_else(unknown)
+    }
 }
 
 impl Orientation {
@@ -53,6 +71,14 @@ impl Orientation {
             Some("CYLINDRICAL") => Self::Cylindrical([a, b]),
             _ => Self::Rectangular([a, b, c]),
         })
+    }
+
+    /// In the model, of one that is stated in a scope.
+    fn placed(self, scope: &Scope) -> Self {
+        match self {
+            Self::Rectangular(points) => Self::Rectangular(points.map(|point| scope.place(point))),
+            Self::Cylindrical(points) => Self::Cylindrical(points.map(|point| scope.place(point))),
+        }
     }
 
     /// The axes in a scene.

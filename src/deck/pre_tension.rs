@@ -60,7 +60,10 @@ impl<'a, 'c> Sections<'a, 'c> {
                 .filter(|part| of_sides.all(|other| other == *part));
             let apart = || card.error("expected faces of one connected part");
             let direction = match card.rows(scope).next() {
-                Some(_) => Some(numbers(card.row("a vector")?)?),
+                Some(_) => {
+                    let stated = contents.nodes.scope(scope);
+                    Some(stated.turn(numbers(card.row("a vector")?)?))
+                }
                 None => None,
             };
             found.of_node.insert(node, found.sections.len());

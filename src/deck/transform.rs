@@ -52,10 +52,10 @@ impl Transforms {
             card.only(&["NSET", "TYPE"])?;
             card.one_of("TYPE", &["R", "C"])?;
             let row = card.row("two points")?;
-            let points = points(row)?;
+            let (points, stated) = (points(row)?, contents.nodes.scope(scope));
             let axes = match card.get("TYPE") {
-                Some("C") => Some(Axes::Around(points)),
-                _ => straight(points).map(Axes::Straight),
+                Some("C") => Some(Axes::Around(points.map(|point| stated.place(point)))),
+                _ => straight(points.map(|way| stated.turn(way))).map(Axes::Straight),
             };
             let axes = axes.ok_or_else(|| row.error("two points on one line with the origin"))?;
             for node in contents

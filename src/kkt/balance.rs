@@ -20,8 +20,12 @@ use crate::error::Error;
 /// and where a support is, to this part of the largest displacement,
 const UNCARRIED: f64 = 1e-6;
 
-/// or if it is less than this part of the forces of the cells themselves: rounding, however they cancel.
+/// or if it is less than this part of the forces of the cells themselves: rounding, however they cancel,
 const ROUNDED: f64 = 1e-12;
+
+/// as long as the sum of all forces is less than this part of what acts: of a body thousands of times as long as thick,
+/// rounding may be larger than all of it. Contact forces that are themselves rounding do not count.
+const UNANSWERED: f64 = 1e-3;
 
 /// A residual with the node where it is worst.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,6 +56,8 @@ pub struct Balance {
     pub supports: Resultant,
     /// Length of the sum of all forces.
     pub force_defect: Defect,
+    /// The same as a part of loads or contact forces; zero where there are none.
+    pub unanswered: f64,
     /// Length of the sum of all moments; scaled by the sum of forces at the farthest node.
     pub moment_defect: Defect,
 }
@@ -63,7 +69,7 @@ impl Balance {
     pub fn holds(&self) -> bool {
         let carried =
             self.equilibrium.scaled <= UNCARRIED || self.equilibrium.value <= ROUNDED * self.inner;
-        carried && self.support.scaled <= UNCARRIED
+        carried && self.unanswered <= UNANSWERED && self.support.scaled <= UNCARRIED
     }
 }
 
@@ -86,6 +92,9 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
         None => held,
     };
     let parts = [state.load, &contact, &held];
+    let given = parts[..2].iter();
+    let given = given.map(|part| nodal_lengths(part, dimension).sum());
+    let given: Vec<f64> = given.collect();
     let [loads, contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
     let sizes = parts.iter().flat_map(|part| nodal_lengths(part, dimension));
     let (force, total) = sizes.fold((0.0_f64, 0.0), |(most, sum), size| {
@@ -101,14 +110,25 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
         ],
     };
     let equilibrium = worst_node(&loose, force, dimension);
+    let force_defect = Defect::of(&forces, total);
+    let inner = state.inner_force(equilibrium.node);
+    let given = match given[..] {
+        [loads, contact] if contact > ROUNDED * inner => loads.max(contact),
+        [loads, _] => loads,
+        _ => 0.0,
+    };
     Ok(Balance {
-        inner: state.inner_force(equilibrium.node),
+        inner,
         equilibrium,
         support: worst_node(&state.support_departure(), motion, dimension),
         loads,
         contact,
         supports,
-        force_defect: Defect::of(&forces, total),
+        unanswered: match given > 0.0 {
+            true => force_defect.value / given,
+            false => 0.0,
+        },
+        force_defect,
         moment_defect: Defect::of(&moments, total * reach),
     })
 }

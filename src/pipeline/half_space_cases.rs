@@ -77,11 +77,11 @@ pub fn half_space_cases(
         let stiffness = Cell::Number(problem.normal_stiffness(&outcome)?);
         let names = variations.iter().map(|variation| variation.name.clone());
         let given = names.zip(values.iter().map(|&value| Cell::Number(value)));
-        table.add(
-            given
-                .chain(step.row())
-                .chain([("stiffness".to_owned(), stiffness)]),
-        );
+        // What is varied is no column of results as well.
+        let given_once = |(name, _): &(String, Cell)| variations.iter().all(|v| v.name != *name);
+        let found = step.row().into_iter().filter(given_once);
+        let stiffness = [("stiffness".to_owned(), stiffness)];
+        table.add(given.chain(found).chain(stiffness));
         near = (outcome.status == HalfSpaceStatus::Certified).then_some(outcome);
         done(number + 1, cases.len());
     }

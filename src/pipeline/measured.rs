@@ -101,7 +101,8 @@ impl Measured {
             return (outcome.status, outcome.shortfall);
         }
         if let Some(body) = self.balances.iter().position(|balance| !balance.holds()) {
-            let part = self.balances[body].equilibrium.scaled;
+            let balance = &self.balances[body];
+            let part = balance.equilibrium.scaled.max(balance.unanswered);
             let shortfall = Shortfall::OutOfBalance { body, part };
             return (Status::NotConverged, Some(shortfall));
         }

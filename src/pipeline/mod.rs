@@ -394,9 +394,12 @@ impl Solution {
         let support_forces: Vec<_> = support_forces.collect::<Result<_, _>>()?;
         let motion = &self.outcome.motion;
         let rigid_motions = condensed.rigid_motions(motion);
-        let sides = match condensed.rigid_bodies() {
-            [] => Vec::new(),
-            _ => condensed.other_sides(&self.setup.acting.obstacles, motion),
+        let obstacles = &self.setup.acting.obstacles;
+        let still = condensed.rigid_bodies().is_empty()
+            && obstacles.iter().all(|motion| *motion == [0.0; 3]);
+        let sides = match still {
+            true => Vec::new(),
+            false => condensed.other_sides(obstacles, motion),
         };
         let group_states: Vec<_> = states.iter().map(kkt::group_states).collect();
         make(&ReportParts {

@@ -2,7 +2,7 @@
 
 use super::Solution;
 use super::quantities::{Drive as Quantity, Quantities};
-use crate::alternation::{Drive, Linearised, Rate, Sides, Status};
+use crate::alternation::{Centred, Drive, Linearised, Rate, Sides, Status};
 use crate::condensation::{BodyRate, Driven};
 use crate::error::Error;
 use crate::report::{Moved, Sensitivity, derivatives};
@@ -14,7 +14,6 @@ struct Parameter {
     body: Option<BodyRate>,
     /// Motion of the other side per contact, in metre; none at all where no rigid body is given one.
     sides: Vec<[f64; 3]>,
-    moves_obstacle: bool,
 }
 
 impl Solution {
@@ -76,7 +75,7 @@ impl Solution {
     fn all(&self, wanted: impl Fn(&str) -> bool) -> Result<Option<Vec<Sensitivity>>, Error> {
         self.with_parts(|parts| {
             self.each_rate(wanted, |parameter, sides| {
-                let moved = sides.map(|rate| match self.slip_needs_bodies(parameter) {
+                let moved = sides.map(|rate| match self.slip_needs_bodies() {
                     true => Moved {
                         displacements: self.recovered(parameter, &rate),
                         sides: self.sides_moved(parameter, &rate),
@@ -134,16 +133,15 @@ impl Solution {
             .collect()
     }
 
-    /// Whether the contact problem does not tell how contacts slide: those without friction hold no tangents, and
-    /// slip is that of the bodies, not relative to an obstacle that moves.
-    fn slip_needs_bodies(&self, parameter: &Parameter) -> bool {
+    /// Whether the contact problem does not tell how all contacts slide: those without friction hold no tangents.
+    fn slip_needs_bodies(&self) -> bool {
         let dimension = self
             .setup
             .bodies
             .first()
             .map_or(3, |body| body.mesh.dimension);
         let mut nodes = self.setup.condensed.surface().nodes.iter();
-        parameter.moves_obstacle || nodes.any(|node| node.tangents + 1 < dimension)
+        nodes.any(|node| node.tangents + 1 < dimension)
     }
 
     fn each_rate<T>(
@@ -163,7 +161,8 @@ impl Solution {
             return Ok(None);
         }
         let problem = self.precise()?.problem();
-        let Some(mut laws) = Linearised::new(problem, &self.outcome)? else {
+        let centred = Centred::new(problem)?;
+        let Some(mut laws) = Linearised::new(&centred, &self.outcome)? else {
             return Ok(None);
         };
         let mut all = Vec::new();
@@ -193,7 +192,6 @@ impl Solution {
                 drive: self.driven_by(&rate),
                 body: Some(rate),
                 sides: Vec::new(),
-                moves_obstacle: false,
             });
         }
         Ok(all)
@@ -208,7 +206,6 @@ impl Solution {
             drive: Drive::none(problem),
             body: None,
             sides: Vec::new(),
-            moves_obstacle: matches!(quantity, Quantity::Obstacle(..)),
         };
         let drive = &mut parameter.drive;
         let blocks = nodes.iter().zip(problem.blocks());
@@ -232,6 +229,9 @@ impl Solution {
             }
             Quantity::Obstacle(pair, axis) => {
                 drive.beyond = condensed.rate_of_obstacle(*pair, *axis);
+                let mut obstacles = vec![[0.0; 3]; pair + 1];
+                obstacles[*pair][*axis] = 1.0;
+                parameter.sides = condensed.surface().obstacle_motions(&obstacles);
             }
             Quantity::Factor(Driven::Rigid { body, component }) => {
                 let rate = condensed.rate_of_rigid(*body, *component);

@@ -5,6 +5,7 @@ use serde::Serialize;
 use super::ReportParts;
 use super::certificate::in_dimension;
 use crate::kkt::{ContactStatus, global_force, relative_displacement};
+use crate::problem::Law;
 
 /// What a contact does, as reports spell it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -117,8 +118,7 @@ pub(super) fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
         return [0.0; 3];
     }
     let contact = &parts.surface.nodes[i];
-    let laws = parts.problem.laws();
-    if laws.is_some_and(|laws| laws[i].compliance[1] > 0.0) {
+    if has_sliding_layer(parts, i) {
         return slip_without_layer(parts, i);
     }
     let mut slip = relative_displacement(contact, parts.displacements, parts.dimension());
@@ -132,6 +132,12 @@ pub(super) fn slip(parts: &ReportParts<'_>, i: usize) -> [f64; 3] {
 pub(super) fn across(normal: [f64; 3], vector: [f64; 3]) -> [f64; 3] {
     let along: f64 = vector.iter().zip(normal).map(|(u, n)| u * n).sum();
     [0, 1, 2].map(|axis| vector[axis] - along * normal[axis])
+}
+
+/// Whether a layer of the surfaces gives way to a contact's friction.
+pub(super) fn has_sliding_layer(parts: &ReportParts<'_>, i: usize) -> bool {
+    let gives = |laws: &[Law]| laws[i].compliance[1] > 0.0;
+    parts.problem.laws().is_some_and(gives) && parts.problem.block(i).len() > 1
 }
 
 /// Slip of what obeys the law, as the contact problem has it: the bodies' displacement holds that of the layer.

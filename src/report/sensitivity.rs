@@ -6,7 +6,7 @@
 use serde::Serialize;
 
 use super::ReportParts;
-use super::contacts::{across, contact_forces, slip};
+use super::contacts::{across, contact_forces, has_sliding_layer, slip};
 use super::totals::Sums;
 use crate::alternation::{Rate, Sides};
 use crate::kkt::{ContactStatus, global_force, relative_displacement};
@@ -105,7 +105,11 @@ fn of_side(parts: &ReportParts<'_>, moved: &Moved, sign: f64) -> Vec<(String, f6
     let pressures = pressures.filter(|(_, (_, contact))| contact.area > 0.0);
     let pressures = pressures.map(|(k, (force, contact))| {
         let value = -parts.outcome.reaction[parts.problem.normals()[k]] / contact.area;
-        (value, force.pressing / contact.area)
+        match value < 0.0 {
+            // What pulls has no pressure.
+            true => (0.0, 0.0),
+            false => (value, force.pressing / contact.area),
+        }
     });
     let pressures: Vec<_> = pressures.collect();
     let gaps = parts.problem.normals().iter().enumerate().map(|(k, &n)| {
@@ -136,9 +140,12 @@ fn slipping(parts: &ReportParts<'_>, moved: &Moved, contact: usize, sign: f64) -
     }
     let node = &parts.surface.nodes[contact];
     let slip = slip(parts, contact);
+    let told = node.tangents + 1 == parts.dimension() || has_sliding_layer(parts, contact);
     let rate = match moved.displacements.as_slice() {
         // A vector along the directions of its contact, like a force.
-        [] => global_force(node, &moved.rate.beyond[parts.problem.block(contact)]),
+        bodies if told || bodies.is_empty() => {
+            global_force(node, &moved.rate.beyond[parts.problem.block(contact)])
+        }
         bodies => {
             let own = relative_displacement(node, bodies, parts.dimension());
             let side = moved.sides.get(contact).copied().unwrap_or_default();

@@ -160,8 +160,9 @@ impl ReportedShortfall {
             alternation::Shortfall::OutOfBalance { body, part } => (
                 Reason::OutOfBalance,
                 format!(
-                    "nothing carries {} of the largest force on bodies[{body}]: look for cells that are \
-                     millions of times as long as wide, and for a misplaced unit among coordinates",
+                    "nothing carries {} of the forces on bodies[{body}]: look for cells that are millions of times \
+                     as long as wide, a body that is thousands of times as long as thick, and for a misplaced unit \
+                     among coordinates",
                     size(part)
                 ),
             ),

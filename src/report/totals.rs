@@ -161,21 +161,34 @@ impl ReportedExchange {
 }
 
 impl Sums {
-    /// Over the contacts of one pair, or of all.
+    /// Over the contacts of one pair, or of all; what a bolt carries across its cut is inside of a body, and only counted.
     pub(super) fn of(
         parts: &ReportParts<'_>,
         forces: &[ContactForce],
         pair: Option<usize>,
     ) -> Self {
         let mut sums = Self::default();
+        let cuts = parts.rigid.bodies.iter().filter(|body| body.cut.is_some());
+        let cuts: Vec<usize> = cuts.flat_map(|body| body.pairs.iter().copied()).collect();
         let contacts = parts.surface.nodes.iter().zip(forces);
         for ((contact, force), &status) in contacts.zip(&parts.outcome.verdict.status) {
             if pair.is_none_or(|pair| pair == contact.pair) {
-                let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
-                sums.add(contact, centre, force, status);
+                sums.count(status);
+                if pair.is_some() || !cuts.contains(&contact.pair) {
+                    let centre = contact.centre(&parts.bodies[contact.body].mesh.nodes);
+                    sums.add(contact, centre, force, status);
+                }
             }
         }
         sums
+    }
+
+    fn count(&mut self, status: ContactStatus) {
+        match status {
+            ContactStatus::Open => self.open += 1,
+            ContactStatus::Stick => self.stick += 1,
+            ContactStatus::Slip => self.slip += 1,
+        }
     }
 
     /// `centre`: where its force acts, in metre.
@@ -187,15 +200,9 @@ impl Sums {
         status: ContactStatus,
     ) {
         match status {
-            ContactStatus::Open => self.open += 1,
-            ContactStatus::Stick => {
-                self.stick += 1;
-                self.stick_area += contact.area;
-            }
-            ContactStatus::Slip => {
-                self.slip += 1;
-                self.slip_area += contact.area;
-            }
+            ContactStatus::Open => {}
+            ContactStatus::Stick => self.stick_area += contact.area,
+            ContactStatus::Slip => self.slip_area += contact.area,
         }
         self.normal += force.pressing;
         let sign = if contact.second { -1.0 } else { 1.0 };

@@ -26,8 +26,8 @@ pub struct SceneGeneralContact {
 }
 
 impl SceneGeneralContact {
-    /// A pair for every two bodies that face each other and that none of the `stated` pairs has; the facets of each become
-    /// a group `facing NAME` of its mesh.
+    /// A pair for every face on which two bodies face each other that none of the `stated` pairs has; the facets of each
+    /// become a group `facing NAME` of its mesh, or `facing NAME (2)` and on.
     pub(super) fn pairs(
         &self,
         bodies: &mut [Body],
@@ -47,27 +47,29 @@ impl SceneGeneralContact {
                 if stated.iter().any(|pair| pair.joins([first, second])) {
                     continue;
                 }
-                let facets = facing_skins([&bodies[first], &bodies[second]], self.distance);
-                if facets.iter().any(Vec::is_empty) {
-                    continue;
-                }
                 let names = [first, second].map(|at| bodies[at].name.clone());
-                let groups = [1, 0].map(|other: usize| format!("facing {}", names[other]));
-                for (at, (group, facets)) in
-                    [first, second].into_iter().zip(groups.iter().zip(facets))
-                {
-                    bodies[at]
-                        .mesh
-                        .groups
-                        .insert(group.clone(), Group::Facets(facets));
+                let faces = facing_skins([&bodies[first], &bodies[second]], self.distance);
+                for (number, facets) in faces.into_iter().enumerate() {
+                    // Of bodies that meet on several faces, all but the first have a number.
+                    let mark = |name: String| match number {
+                        0 => name,
+                        _ => format!("{name} ({})", number + 1),
+                    };
+                    let groups =
+                        [1, 0].map(|other: usize| mark(format!("facing {}", names[other])));
+                    let sides = [first, second].into_iter().zip(&groups).zip(facets);
+                    for ((at, group), facets) in sides {
+                        let mesh = &mut bodies[at].mesh;
+                        mesh.groups.insert(group.clone(), Group::Facets(facets));
+                    }
+                    let contact = SceneContact::between(
+                        [&names[0], &groups[0]],
+                        [&names[1], &groups[1]],
+                        self.friction,
+                    );
+                    let place = mark(format!("{PLACE}: {}, {}", names[0], names[1]));
+                    pairs.push(contact.resolve(&place, Path::new(""), bodies, &[])?);
                 }
-                let contact = SceneContact::between(
-                    [&names[0], &groups[0]],
-                    [&names[1], &groups[1]],
-                    self.friction,
-                );
-                let place = format!("{PLACE}: {}, {}", names[0], names[1]);
-                pairs.push(contact.resolve(&place, Path::new(""), bodies, &[])?);
             }
         }
         match pairs.is_empty() {

@@ -6,12 +6,14 @@
 //! | what | file |
 //! |---|---|
 //! | facets that turn too far, or stand off by as much as bodies approach (V1) | `facets` |
-//! | one contact that carries all, deep obstacles, nothing that touches, a first step | `resolution` |
+//! | one contact that carries all, sides in each other between contacts, deep obstacles, nothing that touches, a first step | `resolution` |
+//! | facets that meet the same side in two contacts | `stated_twice` |
 //! | strain, rotation and slip beyond small displacements | `small_displacement` |
 
 mod facets;
 mod resolution;
 mod small_displacement;
+mod stated_twice;
 
 use crate::contact::ContactNode;
 use crate::kkt::ContactStatus;
@@ -27,11 +29,14 @@ pub fn notes(parts: &ReportParts<'_>) -> Vec<String> {
     let mut notes = Vec::new();
     for (index, pair) in parts.pairs.iter().enumerate() {
         let pressed = pressed(parts, index);
+        let straight = facets::facets(parts, index, &pressed);
+        let between = || resolution::between_contacts(parts, index);
         let found = [
             resolution::single(&pressed),
-            facets::facets(parts, index, &pressed),
+            straight.or_else(between),
             facets::corner(parts, index, &pressed),
             resolution::deep(parts, index),
+            stated_twice::stated_twice(parts, index),
         ];
         let found = found.into_iter().flatten();
         notes.extend(found.map(|note| format!("{}: {note}", pair.place)));

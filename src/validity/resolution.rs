@@ -10,6 +10,12 @@ use crate::report::{ReportParts, significant};
 /// Part of the extent of a surface beyond which an overlap is no fit.
 const FIT: f64 = 0.05;
 
+/// Part of the farthest coordinate that is round-off.
+const ROUNDED: f64 = 1e-12;
+
+/// Part of the largest displacement beyond which sides that are in each other between contacts are told.
+const OF_MOTION: f64 = 0.1;
+
 /// Part of the normal force on contacts that closed in the first step from which a note says so.
 const CLOSED: f64 = 0.01;
 
@@ -51,10 +57,37 @@ pub(super) fn deep(parts: &ReportParts<'_>, pair: usize) -> Option<String> {
     })
 }
 
+/// How deep the sides are in each other between contacts, beside what the bodies move.
+///
+/// Contacts hold means over facets: where those of the side that carries are wide beside a body that bends, it
+/// goes through them.
+pub(super) fn between_contacts(parts: &ReportParts<'_>, pair: usize) -> Option<String> {
+    let depth = parts.fits.get(pair)?.overlap.value;
+    let lengths = parts.extremes.iter().map(|body| body.displacement.value);
+    let moved = lengths.fold(0.0, f64::max);
+    let nodes = parts
+        .bodies
+        .iter()
+        .flat_map(|body| &body.mesh.nodes)
+        .flatten();
+    let rounded = ROUNDED * nodes.fold(0.0_f64, |most, x| most.max(x.abs()));
+    (depth > rounded && depth > OF_MOTION * moved).then(|| {
+        format!(
+            "the sides are up to {} in each other between contacts, where bodies move by {}: displacements and \
+             pressures are wrong by as large a part; refine the side that carries, or both",
+            significant(depth),
+            significant(moved)
+        )
+    })
+}
+
 /// No contact carries anything.
 pub(super) fn nothing_touches(parts: &ReportParts<'_>) -> Option<String> {
     let status = &parts.outcome.verdict.status;
-    if status.iter().any(|status| *status != ContactStatus::Open) {
+    // Glue and a given bound act across a gap.
+    let mut laws = parts.problem.laws().into_iter().flatten();
+    let across = laws.any(|law| law.tension > 0.0 || law.shear > 0.0);
+    if across || status.iter().any(|status| *status != ContactStatus::Open) {
         return None;
     }
     let displacement = &parts.outcome.verdict.displacement;

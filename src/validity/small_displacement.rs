@@ -2,7 +2,11 @@
 //!
 //! Strain and rotation enter to the first power: their squares are what is left out. A contact
 //! meets what it faced before loading: a slip of a cell, or of a tenth of the radius of curvature, meets
-//! other points and another normal.
+//! other points and another normal; on a curve it changes the gap:
+//!
+//! ```text
+//! (V2)  s²/(2 R)       by which a curve of radius R falls off over a slip s
+//! ```
 
 use std::f64::consts::PI;
 
@@ -19,6 +23,9 @@ const ROTATION: f64 = 5.0;
 
 /// Part of the radius of curvature that a contact may slip.
 const OF_RADIUS: f64 = 0.1;
+
+/// Part of the largest gap that pressed contacts close by which a curve may fall off over their slip.
+const OF_GAP: f64 = 0.1;
 
 /// Notes on what leaves the theory.
 pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
@@ -88,7 +95,23 @@ fn limit(parts: &ReportParts<'_>, pair: usize) -> Option<(f64, &'static str)> {
     match &parts.pairs[pair].opposite {
         Opposite::Obstacle(obstacle) => {
             let radius = obstacle.least_radius()?;
-            Some((OF_RADIUS * radius, "a tenth of its radius"))
+            let contacts = parts
+                .surface
+                .nodes
+                .iter()
+                .zip(&parts.outcome.verdict.status);
+            let pressed = contacts.filter(|(contact, status)| {
+                contact.pair == pair && **status != ContactStatus::Open
+            });
+            let closed = pressed.map(|(contact, _)| contact.initial_gap.abs());
+            let falls = (2.0 * radius * OF_GAP * closed.fold(0.0, f64::max)).sqrt();
+            Some(match falls > 0.0 && falls < OF_RADIUS * radius {
+                true => (
+                    falls,
+                    "a way on which that falls off by a tenth of the gap that is closed",
+                ),
+                false => (OF_RADIUS * radius, "a tenth of its radius"),
+            })
         }
         Opposite::Surface { .. } => {
             let own = parts.surface.nodes.iter().filter(|c| c.pair == pair);

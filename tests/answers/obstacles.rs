@@ -293,3 +293,73 @@ fn a_body_fitted_with_interference_carries_its_squeeze() {
         assert!((pressure / expected - 1.0).abs() < 1e-11, "{contact:?}");
     }
 }
+
+/// A unit square of n cells a side on a profile, its top moved down.
+fn on_profile(points: &[[f64; 2]], n: usize, down: f64) -> Solution {
+    let lines = graded(0.0, 1.0, n, 1.0).unwrap();
+    let scene = json!({
+        "bodies": [{
+            "mesh": {"file": "given in code"},
+            "model": "plane_strain",
+            "materials": [{"young": 1000, "poisson": 0.3}],
+            "supports": [{"group": "top", "displacement": [0, -down]}]
+        }],
+        "contacts": [{"group": "bottom", "friction": 0.0, "obstacle": {"profile": {"points": points}}}]
+    });
+    let mut scene = Scene::from_json(&scene.to_string(), "").unwrap();
+    scene.bodies[0].mesh = MeshSource::Given(rectangle(&lines, &lines, CellKind::Quad4).unwrap());
+    solve(&scene).unwrap()
+}
+
+#[test]
+fn contacts_over_a_wall_stay_open_and_need_no_normal() {
+    // What presses is the flat top, however steep its walls are.
+    let force = |wall: f64| {
+        let points = [
+            [-1.0, -0.5],
+            [0.46 - wall, -0.5],
+            [0.46, 0.0],
+            [0.54, 0.0],
+            [0.54 + wall, -0.5],
+            [2.0, -0.5],
+        ];
+        let solution = on_profile(&points, 20, 0.01);
+        assert_eq!(solution.status(), Status::Certified, "{wall}");
+        solution.report().unwrap().totals.normal
+    };
+    let gentle = force(0.1);
+    for wall in [0.03, 0.01, 0.003] {
+        assert!((force(wall) / gentle - 1.0).abs() < 1e-9, "{wall}");
+    }
+}
+
+#[test]
+fn a_node_over_a_corner_is_pressed_along_the_normal_of_its_own_face() {
+    // A ridge below the middle node: mirror images of themselves, both ways along the profile.
+    for slope in [0.02, 0.5, 3.0] {
+        let solution = on_profile(
+            &[[-1.0, -1.5 * slope], [0.5, 0.0], [2.0, -1.5 * slope]],
+            4,
+            0.01,
+        );
+        assert_eq!(solution.status(), Status::Certified);
+        let totals = solution.report().unwrap().totals;
+        assert!(
+            totals.normal > 1.0 && totals.contact_force[0].abs() < 1e-9,
+            "{slope} {totals:?}"
+        );
+    }
+}
+
+#[test]
+fn an_obstacle_that_pokes_in_between_contacts_is_told() {
+    let ridge = [[-1.0, -0.15], [0.5, 0.0], [2.0, -0.15]];
+    let told = |n: usize| {
+        let report = on_profile(&ridge, n, 0.01).report().unwrap();
+        report
+            .notes
+            .iter()
+            .any(|note| note.contains("in each other between contacts"))
+    };
+    assert!(told(5) && !told(40));
+}

@@ -191,6 +191,82 @@ fn an_obstacle_that_moves_changes_the_totals_as_cases_say() {
     }
 }
 
+/// A block on a plane under a pressure, of this contact law.
+fn under_law(contact: Value, supports: Value) -> Value {
+    let mut contact = contact;
+    contact["group"] = json!("bottom");
+    contact["obstacle"] = json!({"plane": {"point": [0, 0], "normal": [0, 1]}});
+    json!({
+        "bodies": [{
+            "mesh": {"rectangle": {"x": [0, 1], "y": [0, 1], "cells": [4, 4]}},
+            "model": "plane_strain",
+            "materials": [{"young": 1000, "poisson": 0}],
+            "loads": [{"group": "top", "pressure": 5}],
+            "supports": supports
+        }],
+        "contacts": [contact]
+    })
+}
+
+fn rate(scene: &Value, parameter: &str, of: &str) -> f64 {
+    let found = certified(scene).sensitivity(parameter).unwrap().unwrap();
+    found.of(of).unwrap()
+}
+
+#[test]
+fn what_a_cap_bounds_does_not_grow_with_friction() {
+    let pushed = json!([{"group": "top", "displacement": [0.02, null]}]);
+    let law = |law: Value| under_law(json!({"law": {"coulomb": law}}), pushed.clone());
+    let friction = |law: Value| rate(&law, "friction", "friction_x");
+    // Capped at 0.5 per area everywhere; not at all; then T = μ p.
+    assert_eq!(
+        friction(law(json!({"friction": 0.3, "shear_cap": 0.5}))),
+        0.0
+    );
+    let free = friction(law(json!({"friction": 0.3, "shear_cap": 50})));
+    assert!((free + 5.0).abs() < 1e-9, "{free}");
+}
+
+#[test]
+fn slip_is_what_slides_on_an_obstacle_that_moves_and_on_a_layer_that_gives() {
+    // Held by a spring alone: the block sticks to the plane and goes along.
+    let mut carried = under_law(json!({"friction": 0.5}), json!([]));
+    carried["bodies"][0]["foundation"] = json!([{"group": "top", "stiffness": [1, 0]}]);
+    assert!(rate(&carried, "contacts[0].x", "largest_slip").abs() < 1e-9);
+    let text = Scene::from_json(&carried.to_string(), "").unwrap();
+    let (name, values) = ("contacts[0].x".to_owned(), vec![1e-3]);
+    let slip = cases(&text, &[Variation { name, values }]).unwrap();
+    assert!(slip.column("largest_slip").unwrap()[0] < 1e-12);
+    // A disc whose rim is moved outward on a layer that takes all of it: contacts stick, but for that on the axis
+    // all have a tangent.
+    let layer = json!({"friction": 0.9, "compliance": {"tangential": 2e-4}, "dragged": true});
+    let mut disc = under_law(
+        layer,
+        json!([{"group": "right", "displacement": [1e-4, null]}]),
+    );
+    disc["bodies"][0]["model"] = json!("axisymmetric");
+    for parameter in ["bodies[0].supports[0]", "gap"] {
+        assert!(
+            rate(&disc, parameter, "largest_slip").abs() < 1e-9,
+            "{parameter}"
+        );
+    }
+    // Without friction everything slides, layer or none.
+    let slid = |contact: Value| {
+        let scene = under_law(
+            contact,
+            json!([{"group": "right", "displacement": [1e-3, null]}]),
+        );
+        total(&certified(&scene).report().unwrap(), "largest_slip")
+    };
+    let bare = slid(json!({"friction": 0}));
+    assert!(bare > 1e-3);
+    assert!(
+        (slid(json!({"friction": 0, "compliance": {"tangential": 2e-4}})) / bare - 1.0).abs()
+            < 1e-9
+    );
+}
+
 #[test]
 fn a_line_contact_grows_as_hertz_says() {
     // p₀ ∝ √P and a ∝ √P: dp₀/dP = p₀/(2P), da/dP = a/(2P) with a = 2P/(π p₀); whatever the far side of the body.

@@ -229,6 +229,28 @@ fn a_sector_between_planes_through_the_axis_widens_as_the_whole_ring() {
 }
 
 #[test]
+fn a_block_between_slanted_planes_slides_on_a_smooth_floor() {
+    // Cells whose axes are no global ones, with contacts along one: uniform pressure, with and without friction.
+    for kind in CellKind::LINEAR
+        .into_iter()
+        .filter(|kind| kind.dimension() == 3)
+    {
+        for friction in [0.0, 0.3] {
+            let mesh = block(kind, [0.0; 3], [1.0; 3], [2; 3]);
+            let mesh = turned(mesh, Rotation3::from_axis_angle(&Vector3::z_axis(), 0.5));
+            let block = body("block", mesh, 1000.0, 0.3)
+                .with_support(SceneSupport::normal("left", 0.0))
+                .with_support(SceneSupport::normal("front", 0.0))
+                .with_load(SceneLoad::pressure("top", 2.0));
+            let floor = SceneObstacle::plane(&[0.0; 3], &[0.0, 0.0, 1.0]);
+            let contact = SceneContact::on(floor, "bottom", friction);
+            let (_, report) = certified(&scene(vec![block], vec![contact]));
+            assert!((report.totals.normal - 2.0).abs() < 1e-9);
+        }
+    }
+}
+
+#[test]
 fn a_bore_that_is_widened_by_a_length_answers_with_lames_pressure() {
     let mesh = sector(CellKind::Quad8, [4, 8], [0.2, 0.9]);
     let axis = SceneAxis {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use dpana::body::{CellKind, graded, rectangle};
+use dpana::body::{CellKind, box_mesh, graded, rectangle};
 use dpana::report::Report;
 use dpana::scene::{
     SceneAxis, SceneContact, SceneLoad, SceneObstacle, ScenePeriodic, SceneSupport,
@@ -215,5 +215,66 @@ fn two_layers_that_repeat_meet_across_their_seam() {
         assert!(a > 0.0 && (a / b - 1.0).abs() < 0.02, "{cells:?} {a} {b}");
         let (a, b) = (pressed(&seam), pressed(&middle));
         assert!((a - b).abs() < 0.15, "{cells:?} {a} {b}");
+    }
+}
+
+#[test]
+fn layers_that_repeat_alike_press_evenly_at_their_seam_as_well() {
+    // ν = 0: p = E δ over both heights, on meshes that match and on those that do not; friction as the laws say.
+    for (kind, cells) in [
+        (CellKind::Quad4, [3, 3]),
+        (CellKind::Quad4, [3, 2]),
+        (CellKind::Hex8, [2, 2]),
+        (CellKind::Hex8, [3, 2]),
+    ] {
+        let axes = kind.dimension();
+        let layer = |name: &str, low: f64, cells: usize| {
+            let (mut from, mut to) = ([0.0; 3], [1.0; 3]);
+            (from[axes - 1], to[axes - 1]) = (low, low + 1.0);
+            let along = |axis: usize| graded(from[axis], to[axis], cells, 1.0).unwrap();
+            let mesh = match axes {
+                2 => rectangle(&along(0), &along(1), kind).unwrap(),
+                _ => box_mesh(&along(0), &along(1), &along(2), kind).unwrap(),
+            };
+            let shift = |axis: usize| {
+                (0..axes)
+                    .map(|k| f64::from(u8::from(k == axis)))
+                    .collect::<Vec<_>>()
+            };
+            let sides = [["left", "right"], ["front", "back"]]
+                .into_iter()
+                .take(axes - 1)
+                .enumerate();
+            sides.fold(
+                body(name, mesh, 1000.0, 0.0),
+                |body, (axis, [one, other])| {
+                    body.with_periodic(ScenePeriodic::translated(one, other, &shift(axis)))
+                },
+            )
+        };
+        let mut pushed = vec![Some(0.0); axes];
+        (pushed[0], pushed[axes - 1]) = (Some(2e-3), Some(-7e-3));
+        let lower = layer("lower", 0.0, cells[0])
+            .with_support(SceneSupport::of("bottom", &vec![Some(0.0); axes]));
+        let upper = layer("upper", 1.0, cells[1]).with_support(SceneSupport::of("top", &pushed));
+        for friction in [0.0, 0.1, 0.9] {
+            let pair = SceneContact::between(["lower", "top"], ["upper", "bottom"], friction);
+            let (_, report) = certified(&scene(vec![lower.clone(), upper.clone()], vec![pair]));
+            // G γ, or what slides.
+            let shear = f64::min(500.0 * 1e-3, friction * 3.5);
+            let totals = &report.totals;
+            assert!((totals.normal - 3.5).abs() < 1e-9 && (totals.contact_area - 1.0).abs() < 1e-9);
+            assert!(
+                (totals.friction[0].abs() - shear).abs() < 1e-9,
+                "{friction} {:?}",
+                totals.friction
+            );
+            for contact in &report.contacts {
+                assert!(
+                    (contact.pressure.unwrap() - 3.5).abs() < 1e-9,
+                    "{kind:?} {cells:?} {contact:?}"
+                );
+            }
+        }
     }
 }

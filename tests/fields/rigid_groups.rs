@@ -174,3 +174,53 @@ fn the_head_of_a_punch_carries_no_moment_about_its_reference_point() {
     );
     assert!((report.rigid_groups[0].force[0] + x).abs() < 1e-6);
 }
+
+#[test]
+fn a_tool_of_cells_that_all_move_as_one_is_the_tool_with_a_rigid_face() {
+    // No elastic motion is left in it: its sides may be all that is coupled, or all of its cells.
+    let pressed = |kind: CellKind, group: &str, poisson: f64| {
+        let axes = kind.dimension();
+        let box_of = |low: [f64; 2], high: [f64; 2], cells: usize| {
+            let (mut from, mut to) = ([low[0]; 3], [high[0]; 3]);
+            (from[axes - 1], to[axes - 1]) = (low[1], high[1]);
+            block(kind, from, to, [cells; 3])
+        };
+        let base = body("base", box_of([0.0, -1.0], [1.0, 0.0], 4), 1000.0, 0.3)
+            .with_support(SceneSupport::of("bottom", &vec![Some(0.0); axes]));
+        let mut at = vec![0.5; axes];
+        at[axes - 1] = 0.0;
+        let mut force = vec![0.0; axes];
+        force[axes - 1] = -5.0;
+        let mut held = vec![Some(0.0); axes];
+        held[axes - 1] = None;
+        let mut tool = box_of([-0.5, 0.0], [1.5, 1.0], 3);
+        let all = Group::Cells((0..tool.cells().count()).collect());
+        tool.groups.insert("all".to_owned(), all);
+        let tool = body("tool", tool, 500.0, poisson).with_rigid_group(SceneRigidGroup {
+            force: Some(force),
+            displacement: Some(held),
+            rotation: Some(vec![Some(0.0); if axes == 2 { 1 } else { 3 }]),
+            ..SceneRigidGroup::new(group, &at)
+        });
+        let contact = SceneContact::between(["base", "top"], ["tool", "bottom"], 0.0);
+        let (_, report) = certified(&scene(vec![base, tool], vec![contact]));
+        (
+            report.rigid_groups[0].displacement[axes - 1],
+            report.totals.peak_pressure,
+        )
+    };
+    for kind in [CellKind::Quad4, CellKind::Tri3, CellKind::Hex8] {
+        for poisson in [0.0, 0.3] {
+            let (sunk, peak) = pressed(kind, "bottom", poisson);
+            let found = pressed(kind, "all", poisson);
+            assert!(
+                (found.0 / sunk - 1.0).abs() < 1e-9,
+                "{kind:?} {found:?} {sunk}"
+            );
+            assert!(
+                (found.1 / peak - 1.0).abs() < 1e-9,
+                "{kind:?} {found:?} {peak}"
+            );
+        }
+    }
+}

@@ -366,6 +366,10 @@ fn cases_tabulate_load_area_and_stiffness_as_hertz_has_them() {
         assert!(found.abs() < 0.03, "{load} {found}");
     }
     assert_eq!(column("load").len(), 3);
+    // What is varied is a column once.
+    let text = table.to_csv();
+    let names = text.lines().next().unwrap().split(',');
+    assert_eq!(names.filter(|name| *name == "load").count(), 1);
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use dpana::scene::{MeshSource, SceneFormulation, SceneLaw, SceneLoad};
 use dpana::{Scene, solve, solve_steps};
 
-use crate::decks::{SQUARES, assert_close, assert_squares, certified, read, refused};
+use crate::decks::{SQUARES, assert_close, assert_squares, certified, instances, read, refused};
 use crate::program::{dpana, folder};
 
 /// The squares with their upper side moved down by 0.01, in place of the pressure: p = E / (1 − ν²) · 0.005.
@@ -356,6 +356,32 @@ fn materials_have_directions_of_their_own() {
 }
 
 #[test]
+fn directions_of_a_part_turn_with_each_of_its_instances() {
+    // The upper square lies on its side: its axis 2, half as stiff, is along x, that of the lower one along y.
+    let oriented = instances()
+        .replace(
+            "*ELASTIC\n1000., 0.25",
+            "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n1000., 500., 700., 0., 0., 0., 400., 400.\n300.",
+        )
+        .replace(
+            "*SOLID SECTION, ELSET=CELL",
+            "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n*SOLID SECTION, ORIENTATION=O, ELSET=CELL",
+        );
+    let corner = certified(&read(&oriented))
+        .displacement_near(1, [1.0, 2.0, 0.0])
+        .unwrap();
+    assert_close(corner[1], -2.0 / 500.0 - 2.0 / 1000.0, 1e-9);
+    // Axis 1 of the nodes is y of the part, and x of the model where the part lies on its side.
+    let transformed = instances()
+        .replace(
+            "*SOLID",
+            "*TRANSFORM, NSET=SIDE\n0., 1., 0., -1., 0., 0.\n*SOLID",
+        )
+        .replace("LOW.SIDE, 1\nLOW.1, 2\n", "LOW.SIDE, 2\nLOW.1, 1\n");
+    assert_squares(&read(&transformed));
+}
+
+#[test]
 fn spin_delays_and_letters_of_elements_reach_the_scene() {
     let text = SQUARES
         .replace("1000., 0.25", "1000., 0.25\n*DENSITY\n3.")
@@ -457,6 +483,15 @@ fn a_section_of_a_bolt_carries_its_force_or_is_shortened_and_stays_locked() {
 fn keywords_gone_wrong_are_refused_by_line_and_name() {
     let mut missed = Vec::new();
     for (stated, said) in [
+        (
+            "*SOLID SECTION, ELSET=UP, MATERIAL=M\n3.\n",
+            ":28: *SOLID SECTION: element 2 is in another section before",
+        ),
+        ("*ELASTIC\n5., 0.\n", ":28: *ELASTIC: twice in material `M`"),
+        (
+            "*SURFACE INTERACTION, NAME=I\n",
+            ":28: *SURFACE INTERACTION: surface interaction `I` once more",
+        ),
         (
             "*TRANSFORM, NSET=S, TYPE=S\n0., 0., 0., 1., 0., 0.\n",
             ":28: *TRANSFORM: `TYPE=S` is not read",

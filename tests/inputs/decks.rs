@@ -169,8 +169,8 @@ fn sets_are_generated_nested_and_appended_and_surfaces_made_of_nodes() {
     assert_squares(&read(&text.replace("0.5\n*CONTACT", "0.\n*CONTACT")));
 }
 
-#[test]
-fn instances_of_one_part_are_moved_and_named_apart() {
+/// The squares as two instances of one part.
+pub(crate) fn instances() -> String {
     let part = "*PART, NAME=SQUARE\n*NODE\n1, 0, 0\n2, 1, 0\n3, 1, 1\n4, 0, 1\n*ELEMENT, TYPE=CPE4\n\
         1, 1, 2, 3, 4\n*ELSET, ELSET=CELL\n1\n*NSET, NSET=SIDE\n1, 4\n\
         *SOLID SECTION, ELSET=CELL, MATERIAL=M\n,\n*END PART\n\
@@ -193,11 +193,15 @@ fn instances_of_one_part_are_moved_and_named_apart() {
             "LOW.SIDE, 1\nLOW.1, 2\nLOW.2, 2\nUP.1, 1\nUP.2, 1\n",
         )
         .replace("2, P3", "UP.1, P4");
-    let text = format!("{part}*MATERIAL{rest}*SURFACE INTERACTION{tail}").replace(
+    format!("{part}*MATERIAL{rest}*SURFACE INTERACTION{tail}").replace(
         "*ELSET, ELSET=_S",
         "*SURFACE, NAME=X\nUP.CELL, S2\n*ELSET, ELSET=_S",
-    );
-    let deck = read(&text);
+    )
+}
+
+#[test]
+fn instances_of_one_part_are_moved_and_named_apart() {
+    let deck = read(&instances());
     let names: Vec<_> = deck
         .scene
         .bodies
@@ -704,6 +708,9 @@ fn an_imported_deck_is_a_scene_with_the_same_answer() {
         ],
     );
     assert!(String::from_utf8_lossy(&refused.stderr).contains("would overwrite"));
+    let nowhere = dpana(&folder, &["import", deck.to_str().unwrap(), "--out", "-"]);
+    assert!(String::from_utf8_lossy(&nowhere.stderr).contains("`-` is no name for the meshes"));
+    assert!(!folder.join("-").exists());
     let solved = dpana(&folder, &["solve", deck.to_str().unwrap()]);
     assert!(solved.status.success());
     assert!(

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use dpana::alternation::{Drive, Linearised, Rate, Settings, Sides, solve};
+use dpana::alternation::{Centred, Drive, Linearised, Rate, Settings, Sides, solve};
 use dpana::problem::{Floating, Operator};
 use dpana::{ContactProblem, Status};
 use faer::{Mat, mat};
@@ -55,7 +55,8 @@ fn two_hundred_random_states_away_from_kinks_change_as_differences_say() {
         // Friction stays positive under every step.
         numbers.friction.iter_mut().for_each(|mu| *mu += 0.01);
         let (problem, outcome) = numbers.solve_to(CLOSE);
-        let mut laws = Linearised::new(&problem, &outcome).unwrap().unwrap();
+        let centred = Centred::new(&problem).unwrap();
+        let mut laws = Linearised::new(&centred, &outcome).unwrap().unwrap();
         let solved = |h: f64| moved(&numbers, &along, h).solve_to(CLOSE).1;
         let beside = [-2.0, -1.0, 1.0, 2.0].map(|k| solved(k * STEP));
         let all = || beside.iter().chain([&outcome]);
@@ -109,7 +110,8 @@ fn along(
     beyond: [f64; 2],
     friction: f64,
 ) -> (Rate, Rate) {
-    let mut laws = Linearised::new(problem, outcome).unwrap().unwrap();
+    let centred = Centred::new(problem).unwrap();
+    let mut laws = Linearised::new(&centred, outcome).unwrap().unwrap();
     assert_eq!(laws.edges(), 1);
     let drive = Drive {
         beyond: beyond.to_vec(),
@@ -167,7 +169,8 @@ fn a_floating_lid_gives_way_under_more_load() {
     let floating = Floating::new(modes, vec![6.0, 2.0]).unwrap();
     let problem = problem.unwrap().float(floating).unwrap();
     let outcome = solve(&problem, &Settings::default()).unwrap();
-    let mut laws = Linearised::new(&problem, &outcome).unwrap().unwrap();
+    let centred = Centred::new(&problem).unwrap();
+    let mut laws = Linearised::new(&centred, &outcome).unwrap().unwrap();
     let mut drive = Drive::none(&problem);
     drive.load = vec![1.0, 0.0];
     let found = laws.along(&drive).unwrap().unwrap().growing;

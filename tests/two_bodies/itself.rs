@@ -115,3 +115,57 @@ fn the_shipped_clip_closes_and_the_shipped_stack_carries_its_load_from_plate_to_
             .all(|normal| (normal - 2250.0).abs() < 1e-8 * 2250.0)
     );
 }
+
+#[test]
+fn the_two_sides_of_a_wall_are_not_in_each_other() {
+    // The arms are 1 thick, and face each other across 0.02 alone, however far a skin is looked for.
+    let near = pressed(itself("skin", 0.05)).1;
+    for distance in [1.5, 4.0] {
+        let far = pressed(itself("skin", distance)).1;
+        assert_eq!(far.totals, near.totals);
+    }
+}
+
+#[test]
+fn a_closed_slit_is_none_up_to_its_tips() {
+    // 2 × 2 of cells of 0.25, cut along 1 in the middle; pressed from above, it carries what it would uncut.
+    let xs: Vec<f64> = (0..=8).map(|k| 0.25 * f64::from(k)).collect();
+    let whole = rectangle(&xs, &xs, CellKind::Quad4).unwrap();
+    let on_slit = |x: &[f64; 3]| x[1] == 1.0 && x[0] > 0.5 && x[0] < 1.5;
+    let mut mesh = Mesh::new(2, whole.nodes.clone());
+    let slit: Vec<usize> = (0..whole.nodes.len())
+        .filter(|&n| on_slit(&whole.nodes[n]))
+        .collect();
+    mesh.nodes.extend(slit.iter().map(|&n| whole.nodes[n]));
+    for (number, cell) in whole.cells().enumerate() {
+        let above = number >= 32;
+        let other = |node: &usize| match slit.iter().position(|at| at == node) {
+            Some(at) if above => whole.nodes.len() + at,
+            _ => *node,
+        };
+        let nodes: Vec<usize> = cell.nodes.iter().map(other).collect();
+        mesh.push_cell(CellKind::Quad4, &nodes);
+    }
+    for group in ["bottom", "top"] {
+        mesh.groups
+            .insert(group.to_owned(), whole.groups[group].clone());
+    }
+    let skin = mesh.boundary_facets();
+    mesh.groups.insert("skin".to_owned(), Group::Facets(skin));
+    let of = body("plate", mesh, 1000.0, 0.3)
+        .with_support(SceneSupport::of("bottom", &[None, Some(0.0)]))
+        .with_support(SceneSupport::At {
+            at: vec![0.0, 0.0],
+            displacement: vec![Some(0.0), None],
+        })
+        .with_load(SceneLoad::pressure("top", 3.0));
+    let (solution, report) = certified(&scene(vec![of], vec![itself("skin", 0.1)]));
+    // Where both sides have their tip in common nothing can open: half a facet at each of them is no contact.
+    assert!((report.totals.normal - 0.75 * 3.0).abs() < 1e-9);
+    assert!((report.totals.peak_pressure - 3.0).abs() < 1e-9);
+    let shortened = 3.0 * 2.0 * (1.0 - 0.09) / 1000.0;
+    for x in [0.0, 1.0, 2.0] {
+        let [_, u, _] = solution.displacement_near(0, [x, 2.0, 0.0]).unwrap();
+        assert!((u + shortened).abs() < 1e-12, "{u}");
+    }
+}

@@ -4,7 +4,8 @@
 use dpana::body::{CellKind, rectangle};
 use dpana::report::ReportedContactState;
 use dpana::scene::{
-    SceneCompliance, SceneContact, SceneFrictionTable, SceneLaw, SceneLoad, SceneObstacle,
+    MeshSource, SceneCompliance, SceneContact, SceneFrictionTable, SceneLaw, SceneLoad,
+    SceneObstacle,
 };
 use dpana::study::Plan;
 use dpana::{Scene, Status, Variation, cases, limit, solve, study};
@@ -244,6 +245,26 @@ fn shear_ends_at_a_given_bound_and_at_a_cap() {
             (q + (0.5 * pressure).min(4.0)).abs() < 1e-9,
             "{pressure}: {q}"
         );
+    }
+}
+
+#[test]
+fn a_given_bound_holds_what_is_lifted_off() {
+    // What is left of the pressure is round-off of any size; friction, all that acts, does not depend on the lift.
+    for cells in [3, 4, 7] {
+        for kind in [CellKind::Tri3, CellKind::Quad4] {
+            let frictions = [1e-3, 1.8e-3, 0.013].map(|lift| {
+                let mut scene = moved(SceneLaw::Tresca { shear: 1.6 }, 1000.0, [1.8e-3, lift]);
+                let mesh = block(kind, [0.0; 3], [2.0, 0.9, 0.0], [cells, 2, 0]);
+                scene.bodies[0].mesh = MeshSource::Given(mesh);
+                let totals = certified(&scene).1.totals;
+                assert!(totals.normal.abs() < 1e-12);
+                totals.friction[0]
+            });
+            assert!(
+                frictions[0] < -1.0 && frictions.iter().all(|t| (t - frictions[0]).abs() < 1e-9)
+            );
+        }
     }
 }
 

@@ -24,3 +24,4 @@ mod patch;
 mod quadratic;
 mod sabotage;
 mod several;
+mod skins;

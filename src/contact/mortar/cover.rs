@@ -7,12 +7,15 @@
 //! nearest   least |g|                        where several layers lie over each other
 //! ```
 //!
+//! The far sides of walls, which no overlap is as deep as, are left out.
+//!
 //! Sides that touch are parallel there; facets that are inclined by more than 60° to
 //! each other only meet at edges that turn a corner.
 
 use nalgebra::Vector3;
 
 use super::check::Surface;
+use super::overlap::{Overlaps, Span};
 use super::polygon::{Polygon, area, centroid, difference, intersection};
 use super::search::{Prism, Tree};
 use super::view::{Outline, View};
@@ -23,12 +26,16 @@ const FACING: f64 = -0.5;
 /// Area of a part, relative to the facet, that is round-off.
 const SLIVER: f64 = 1e-14;
 
+/// Depth, relative to the facet, below which nothing behind it is the far side of a wall.
+const SHALLOW: f64 = 1e-2;
+
 /// Common area of two parts, relative to the smaller, below which they lie side by side.
 const OVERLAP: f64 = 1e-9;
 
 /// The opposite side, ready to be looked at.
 pub(super) struct Opposite<'a> {
     surface: &'a Surface<'a>,
+    overlaps: &'a Overlaps<'a>,
     tree: Tree,
     /// Depth behind a facet down to which overlap is believed, and down to which it is
     /// looked for, in metre.
@@ -47,19 +54,6 @@ pub(super) struct Cover {
     pub(super) behind: Option<Span>,
 }
 
-/// A line between two points of space, in metre.
-#[derive(Clone, Copy)]
-pub(super) struct Span {
-    pub(super) from: Vector3<f64>,
-    pub(super) to: Vector3<f64>,
-}
-
-impl Span {
-    pub(super) fn length(&self) -> f64 {
-        (self.to - self.from).norm()
-    }
-}
-
 /// A part of a facet and the facet of the other side that covers it.
 #[derive(Clone)]
 pub(super) struct Part {
@@ -74,9 +68,14 @@ pub(super) struct Part {
 }
 
 impl<'a> Opposite<'a> {
-    pub(super) fn new(surface: &'a Surface<'a>, [depth, reach]: [f64; 2]) -> Self {
+    pub(super) fn new(
+        surface: &'a Surface<'a>,
+        overlaps: &'a Overlaps<'a>,
+        [depth, reach]: [f64; 2],
+    ) -> Self {
         Self {
             surface,
+            overlaps,
             tree: Tree::new(surface.mesh, &surface.corners),
             depth,
             reach,
@@ -110,11 +109,15 @@ impl<'a> Opposite<'a> {
             if part.distance * view.size <= -self.reach {
                 continue;
             }
-            if part.distance * view.size > -self.depth {
-                cover.parts.push(part);
+            let (span, depth) = (part.span(view, outline), -part.distance * view.size);
+            if depth < self.depth {
+                let deep = part.distance < -SHALLOW;
+                let ends = [span.from, span.to];
+                if !(deep && self.overlaps.is_far_side(ends, view.normal, depth)) {
+                    cover.parts.push(part);
+                }
                 continue;
             }
-            let span = part.span(view, outline);
             if (cover.behind.as_ref()).is_none_or(|known| span.length() < known.length()) {
                 cover.behind = Some(span);
             }

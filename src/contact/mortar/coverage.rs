@@ -2,14 +2,14 @@
 //!
 //! Either side may carry the contacts, so both may be asked on how many of their facets the other one ends.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use nalgebra::Vector3;
 
 use super::check::{Surface, check_dimensions};
-use super::cover::{Opposite, Span};
+use super::cover::Opposite;
 use super::flush::reach_flush_ends;
-use super::overlap::Overlaps;
+use super::overlap::{Overlaps, Span};
 use super::pieces::Piece;
 use super::polygon;
 use super::search::Bounds;
@@ -80,8 +80,8 @@ impl<'a> Coverage<'a> {
             [one, two].map(|side| Bounds::around(side.mesh, side.facets.iter()).diagonal());
         let depth = WITHIN * INTERFERENCE * extents[0].min(extents[1]);
         let reach = extents[0].max(extents[1]);
-        let opposite = Opposite::new(two, [depth, reach]);
         let overlaps = Overlaps::new(one.mesh, two.mesh);
+        let opposite = Opposite::new(two, &overlaps, [depth, reach]);
         let mut coverage = Self {
             one,
             two,
@@ -239,5 +239,14 @@ impl<'a> Coverage<'a> {
         across.sort_unstable();
         across.dedup();
         [(0..self.one.facets.len()).filter(own).collect(), across]
+    }
+    /// Number of nodes on the facets of either side that meet at all.
+    pub(in crate::contact) fn nodes_met(&self) -> [usize; 2] {
+        let sides = [self.one, self.two].into_iter().zip(self.met());
+        let mut counts = sides.map(|(side, facets)| {
+            let of_facets = facets.iter().flat_map(|facet| &side.facets[*facet].nodes);
+            of_facets.collect::<HashSet<_>>().len()
+        });
+        std::array::from_fn(|_| counts.next().unwrap_or_default())
     }
 }

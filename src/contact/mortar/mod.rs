@@ -78,6 +78,7 @@ pub(in crate::contact) use coupling::average;
 #[cfg(test)]
 pub(in crate::contact) use coupling::couple;
 pub(in crate::contact) use coverage::{Coverage, Ends};
+pub(in crate::contact) use overlap::Overlaps;
 
 use super::lift::Distances;
 

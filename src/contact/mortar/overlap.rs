@@ -9,6 +9,13 @@
 //! are both there; below a thin body that lies on the other one only one of them is. Where they are both
 //! there, but not to either side of the span, they are in each other across it: what is a fit seen from
 //! their tops is none of their walls.
+//!
+//! A face behind another one by half of what both bodies have there is the far side of walls, and in nothing:
+//!
+//! ```text
+//! d ≥ ½ max(w₁, w₂)       d: distance back to it;  w: how far from either face its own body reaches
+//! ```
+//!
 //! Solid angle of a triangle: van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125–126.
 
 use std::f64::consts::PI;
@@ -16,7 +23,6 @@ use std::sync::OnceLock;
 
 use nalgebra::Vector3;
 
-use super::cover::Span;
 use super::search::Bounds;
 use crate::body::{Facet, Mesh};
 
@@ -29,8 +35,27 @@ const NEARLY_HALF: f64 = 0.499;
 /// Directions across a span in space.
 const DIRECTIONS: u32 = 8;
 
+/// Part of a facet by which a line that meets its edge may miss it.
+const EDGE: f64 = 1e-9;
+
+/// Part of the thicker of two walls from which a face that lies as deep behind another one is its far side.
+const WALL: f64 = 0.5;
+
+/// A line between two points of space, in metre.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    pub(super) from: Vector3<f64>,
+    pub(super) to: Vector3<f64>,
+}
+
+impl Span {
+    pub(super) fn length(&self) -> f64 {
+        (self.to - self.from).norm()
+    }
+}
+
 /// The two meshes of a pair; one mesh where a body meets itself.
-pub(super) struct Overlaps<'a> {
+pub(in crate::contact) struct Overlaps<'a> {
     solids: Vec<Solid<'a>>,
 }
 
@@ -41,7 +66,7 @@ struct Solid<'a> {
 }
 
 impl<'a> Overlaps<'a> {
-    pub(super) fn new(mesh1: &'a Mesh, mesh2: &'a Mesh) -> Self {
+    pub(in crate::contact) fn new(mesh1: &'a Mesh, mesh2: &'a Mesh) -> Self {
         let meshes = [mesh1, mesh2];
         let count = if std::ptr::eq(mesh1, mesh2) { 1 } else { 2 };
         let solids = meshes.into_iter().take(count).map(Solid::new);
@@ -57,6 +82,23 @@ impl<'a> Overlaps<'a> {
         let along = (span.to - span.from).normalize();
         let mut around = self.across(along).chain([along, -along]);
         self.both(middle) && around.all(|way| self.both(middle + way * (NEARLY_HALF * depth)))
+    }
+
+    /// Whether a face at `to`, which lies a depth in metre behind one at `from`, is the far side of what lies between;
+    /// `normal`: outward of the one at `from`, of length 1.
+    pub(in crate::contact) fn is_far_side(
+        &self,
+        [from, to]: [Vector3<f64>; 2],
+        normal: Vector3<f64>,
+        depth: f64,
+    ) -> bool {
+        let (Some(own), Some(other)) = (self.solids.first(), self.solids.last()) else {
+            return false;
+        };
+        let walls = own
+            .thickness(from, -normal)
+            .max(other.thickness(to, normal));
+        depth >= WALL * walls
     }
 
     fn both(&self, point: Vector3<f64>) -> bool {
@@ -90,9 +132,32 @@ impl<'a> Solid<'a> {
         }
     }
 
+    fn boundary(&self) -> &[Facet] {
+        self.boundary.get_or_init(|| self.mesh.boundary_facets())
+    }
+
+    /// How far from a point on its boundary the body reaches in a direction of length 1, in metre; infinite where no
+    /// end is seen.
+    fn thickness(&self, from: Vector3<f64>, along: Vector3<f64>) -> f64 {
+        let ends = self.boundary().iter().filter_map(|facet| {
+            let corners = facet.corners(self.mesh.dimension).iter();
+            let corners: Vec<Vector3<f64>> = corners
+                .map(|node| Vector3::from(self.mesh.nodes[*node]) - from)
+                .collect();
+            let end = |a, b, c| leaves_at(along, [a, b, c]);
+            match corners[..] {
+                [a, b] => end(a, b, b + Vector3::z()),
+                [a, b, c] => end(a, b, c),
+                [a, b, c, d] => end(a, b, c).or_else(|| end(a, c, d)),
+                _ => None,
+            }
+        });
+        ends.fold(f64::INFINITY, f64::min)
+    }
+
     /// How often the mesh covers a point.
     fn times_inside(&self, point: Vector3<f64>) -> f64 {
-        let boundary = self.boundary.get_or_init(|| self.mesh.boundary_facets());
+        let boundary = self.boundary();
         let seen = |node: &usize| Vector3::from(self.mesh.nodes[*node]) - point;
         let angles = boundary.iter().map(|facet| {
             let corners = facet.corners(self.mesh.dimension).iter();
@@ -106,6 +171,18 @@ impl<'a> Solid<'a> {
         });
         angles.sum::<f64>() / (4.0 * PI)
     }
+}
+
+/// How far along a direction of length 1 a line from the origin leaves through a triangle with outward normal
+/// `(b − a) × (c − a)`; none if it does not. (Möller, Trumbore, J. Graphics Tools 2 (1997) 21–28.)
+fn leaves_at(along: Vector3<f64>, [a, b, c]: [Vector3<f64>; 3]) -> Option<f64> {
+    let (ab, ac) = (b - a, c - a);
+    let across = along.cross(&ac);
+    let twice = ab.dot(&across);
+    let (u, v) = (-a.dot(&across) / twice, along.dot(&ab.cross(&a)) / twice);
+    let distance = ac.dot(&ab.cross(&a)) / twice;
+    let within = u >= -EDGE && v >= -EDGE && u + v <= 1.0 + EDGE;
+    (within && along.dot(&ab.cross(&ac)) > 0.0 && distance > 0.0).then_some(distance)
 }
 
 /// Angle from one direction of the plane to another, against the clock.

@@ -57,7 +57,8 @@ impl Triangulated {
     ///
     /// # Errors
     ///
-    /// No triangles, a point that there is not, a NaN or infinity. Triangles without an area are left out: what is thinner than round-off looks anywhere.
+    /// No triangles, a point that there is not, a NaN or infinity, two triangles at an edge that look to different sides.
+    /// Triangles without an area are left out: what is thinner than round-off looks anywhere.
     pub fn new(place: &str, points: &[[f64; 3]], triangles: &[[usize; 3]]) -> Result<Self, Error> {
         let (points, number) = welded(place, points)?;
         let mut kept = Vec::with_capacity(triangles.len());
@@ -86,7 +87,43 @@ impl Triangulated {
                 place: format!("{place}: triangles with an area"),
             });
         }
-        Ok(Self::joined(points, kept, normals))
+        let surface = Self::joined(points, kept, normals);
+        match surface.turned_over() {
+            None => Ok(surface),
+            Some(edge) => Err(Error::NotAccepted {
+                place: place.to_owned(),
+                found: format!(
+                    "two triangles that look to different sides at the edge from {:?} to {:?}",
+                    edge[0], edge[1]
+                ),
+                accepted: "triangles whose corners all run counterclockwise seen from outside: turn one of the two, and \
+                           those that go on from it"
+                    .to_owned(),
+            }),
+        }
+    }
+
+    /// An edge that both of its triangles run along the same way, by its ends.
+    fn turned_over(&self) -> Option<[[f64; 3]; 2]> {
+        let runs = |number: usize, ends: [usize; 2]| {
+            let corners = self.triangles[number];
+            (0..3).any(|k| [corners[k], corners[(k + 1) % 3]] == ends)
+        };
+        let sorted = |number: usize| {
+            let mut corners = self.triangles[number];
+            corners.sort_unstable();
+            corners
+        };
+        let edges = self.edges.iter().enumerate();
+        let mut edges =
+            edges.flat_map(|(number, edges)| (0..3).map(move |k| (number, k, &edges[k])));
+        edges.find_map(|(number, k, others)| {
+            let [other] = others[..] else { return None };
+            let ends = [k, (k + 1) % 3].map(|k| self.triangles[number][k]);
+            // What stands twice in a file looks one way.
+            let against = runs(other, ends) && sorted(number) != sorted(other);
+            against.then(|| ends.map(|end| self.points[end].into()))
+        })
     }
 
     fn joined(
@@ -349,6 +386,20 @@ mod tests {
             .iter()
             .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
         Triangulated::new("cube", &points, &halves.collect::<Vec<_>>()).unwrap()
+    }
+
+    #[test]
+    fn triangles_that_look_to_different_sides_are_refused_by_their_edge() {
+        let square = [[0.0; 3], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+        let of = |triangles: &[[usize; 3]]| Triangulated::new("face", &square, triangles);
+        assert!(of(&[[0, 1, 2], [0, 2, 3]]).is_ok());
+        // What stands twice looks one way.
+        assert!(of(&[[0, 1, 2], [0, 1, 2]]).is_ok());
+        let refused = of(&[[0, 1, 2], [0, 3, 2]]).unwrap_err().to_string();
+        assert!(
+            refused.contains("from [1.0, 1.0, 0.0] to [0.0, 0.0, 0.0]"),
+            "{refused}"
+        );
     }
 
     #[test]

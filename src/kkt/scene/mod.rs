@@ -50,7 +50,7 @@ const COORDINATE: f64 = 256.0 * f64::EPSILON;
 /// or as many times the residual that the laws were solved to.
 const RESIDUAL: f64 = 100.0;
 
-/// Part of the largest normal reaction of a pair below which a contact presses on nothing.
+/// Part of the largest reaction of a pair, friction too, below which a contact presses on nothing.
 const PRESSED: f64 = 1e-9;
 
 /// How the sides of all pairs lie before loading: nothing that acts changes it.
@@ -228,7 +228,8 @@ impl SceneGeometry {
             }
             if pressed || around.touches(rounded) {
                 let gap = state.problem.initial_gap()[seat.contact] - opening;
-                fit.misplacement.take(seat.misplacement(gap, rounded));
+                fit.misplacement
+                    .take(seat.misplacement(gap, rounded, pressed));
             }
         }
         if meeting.skins.len() == 2 {
@@ -265,20 +266,21 @@ impl SceneGeometry {
 /// Which contacts press.
 fn pressed(state: &BodyState<'_>, seats: &[Seat]) -> Vec<bool> {
     let laws = state.problem.laws();
-    let normal = |seat: &Seat| {
-        let reaction = block(state.problem, seat.contact, state.reaction)[0];
-        match laws.map(|laws| laws[seat.contact]) {
-            // What glue bears of itself tells nothing of where the sides are.
-            Some(law) if law.tension > 0.0 => reaction - law.tension,
-            _ => reaction,
-        }
+    // Along the normal, and the most along any axis.
+    let force = |seat: &Seat| {
+        let force = block(state.problem, seat.contact, state.reaction);
+        let tension = laws.map_or(0.0, |laws| laws[seat.contact].tension);
+        // What glue bears of itself tells nothing of where the sides are.
+        let normal = force[0] - tension.max(0.0);
+        let most = force[1..]
+            .iter()
+            .fold(normal.abs(), |most, t| most.max(t.abs()));
+        [normal.abs(), most]
     };
-    let most = seats
+    let forces: Vec<[f64; 2]> = seats.iter().map(force).collect();
+    let most = forces
         .iter()
-        .map(|seat| normal(seat).abs())
-        .fold(0.0, f64::max);
-    seats
-        .iter()
-        .map(|seat| normal(seat).abs() > PRESSED * most)
-        .collect()
+        .fold(0.0_f64, |most, [_, force]| most.max(*force));
+    let normals = forces.iter().map(|[normal, _]| *normal);
+    normals.map(|normal| normal > PRESSED * most).collect()
 }

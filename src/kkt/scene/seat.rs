@@ -116,9 +116,12 @@ impl Seat {
     }
 
     /// (K12) for the gap before loading that is said of the contact, in metre, lengths being known to
-    /// `rounded`.
-    pub(super) fn misplacement(&self, initial_gap: f64, rounded: f64) -> Measure {
+    /// `rounded`. Of one that does not press, where nothing is seen along its normal, as over a wall, nothing is said.
+    pub(super) fn misplacement(&self, initial_gap: f64, rounded: f64, pressed: bool) -> Measure {
         let [low, high] = self.distances;
+        if !pressed && low > high {
+            return Measure::default();
+        }
         let outside = (low - initial_gap).max(initial_gap - high).max(0.0);
         let explained = self.sagitta + OVERSHOOT * (high - low).max(0.0) + rounded;
         let mut worst = Measure::new(outside, explained, self.contact);

@@ -35,7 +35,7 @@ impl Directory {
     }
 
     /// The model or the instance of a number.
-    pub(super) fn scope(&self, scope: usize) -> &Scope {
+    pub(crate) fn scope(&self, scope: usize) -> &Scope {
         &self.scopes[scope]
     }
 

@@ -19,8 +19,13 @@ pub(crate) struct Scope {
 
 impl Scope {
     /// Where a point of the part is in the model.
-    pub(super) fn place(&self, point: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn place(&self, point: [f64; 3]) -> [f64; 3] {
         self.motion.apply(point)
+    }
+
+    /// Where a direction of the part points in the model.
+    pub(crate) fn turn(&self, direction: [f64; 3]) -> [f64; 3] {
+        self.motion.turn(direction)
     }
 
     /// The name of a set or surface that is stated here.
@@ -156,13 +161,18 @@ impl Motion {
         }
     }
 
-    /// By Rodrigues' formula.
     fn apply(&self, point: [f64; 3]) -> [f64; 3] {
         let moved = [0, 1, 2].map(|at| point[at] + self.translation[at]);
-        let Some((through, n, angle)) = self.rotation else {
-            return moved;
+        let through = self.rotation.map_or(moved, |(through, ..)| through);
+        let turned = self.turn([0, 1, 2].map(|at| moved[at] - through[at]));
+        [0, 1, 2].map(|at| through[at] + turned[at])
+    }
+
+    /// By Rodrigues' formula.
+    fn turn(&self, d: [f64; 3]) -> [f64; 3] {
+        let Some((_, n, angle)) = self.rotation else {
+            return d;
         };
-        let d = [0, 1, 2].map(|at| moved[at] - through[at]);
         let (sine, cosine) = angle.sin_cos();
         let along: f64 = n.iter().zip(d).map(|(n, d)| n * d).sum();
         let across = [
@@ -170,8 +180,6 @@ impl Motion {
             n[2] * d[0] - n[0] * d[2],
             n[0] * d[1] - n[1] * d[0],
         ];
-        [0, 1, 2].map(|at| {
-            through[at] + cosine * d[at] + sine * across[at] + (1.0 - cosine) * along * n[at]
-        })
+        [0, 1, 2].map(|at| cosine * d[at] + sine * across[at] + (1.0 - cosine) * along * n[at])
     }
 }

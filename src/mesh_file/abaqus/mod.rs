@@ -21,7 +21,7 @@ mod stated;
 pub(crate) use card::{Card, Row, bare, cards};
 pub(crate) use contents::{Contents, KEYWORDS, Side};
 pub(crate) use element::{ElementKind, Space};
-pub(crate) use instance::{Flat, flatten};
+pub(crate) use instance::{Flat, Scope, flatten};
 pub(crate) use lines::Source;
 pub(crate) use mesh::parse;
 
