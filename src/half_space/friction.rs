@@ -45,7 +45,7 @@ pub(super) struct FrictionHalfStep<'a> {
     /// R > 0, in N.
     pub(super) bound: &'a [f64],
     /// c: slip without tangential forces, in metre.
-    pub(super) constant: &'a Pair,
+    pub(super) constant: Pair,
     /// Length that residuals are relative to, in N.
     pub(super) scale: f64,
 }
@@ -107,7 +107,7 @@ impl FrictionHalfStep<'_> {
     /// The state of forces whose `G_TT q` is `product`.
     pub(super) fn measure(&self, force: Pair, product: Pair) -> Rubbed {
         let mut slip = product;
-        add_pair(&mut slip, 1.0, self.constant);
+        add_pair(&mut slip, 1.0, &self.constant);
         let step = 1.0 / self.operator.diagonal()[1];
         let defect = sum(self.bound.len(), |at| {
             let (q, w) = (pick(&force, at), pick(&slip, at));
@@ -121,7 +121,7 @@ impl FrictionHalfStep<'_> {
             let defect = [q[0] - factor * trial[0], q[1] - factor * trial[1]];
             defect[0] * defect[0] + defect[1] * defect[1]
         });
-        let energy = 0.5 * (dot_pair(&force, &slip) + dot_pair(&force, self.constant));
+        let energy = 0.5 * (dot_pair(&force, &slip) + dot_pair(&force, &self.constant));
         Rubbed {
             force,
             slip,
@@ -237,7 +237,7 @@ impl FrictionHalfStep<'_> {
         product: &Pair,
     ) -> Option<Rubbed> {
         let mut before = state.slip.clone();
-        add_pair(&mut before, -1.0, self.constant);
+        add_pair(&mut before, -1.0, &self.constant);
         let mut share = 1.0;
         for _ in 0..5 {
             let (mut force, mut image) = (state.force.clone(), before.clone());

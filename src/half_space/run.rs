@@ -5,7 +5,7 @@
 //! repeat    p   ← (S7) with c = g₀ − δ − G_NT q         to a tenth of the residual
 //!           q   ← slipping contacts to their new radius −μ t_N
 //!           q   ← (S8) with R = μ p, c = û_T − G_TN p    to a tenth of the residual
-//!           U   ← U + K⁻¹ (Q − Σ q)                      if the force is given: K = Σ E (G + Λ)⁻¹ E
+//!                 with U by (S18)                        if the force is given
 //! until     natural map (K1) of all contacts ≤ tolerance
 //! ```
 
@@ -178,7 +178,6 @@ impl HalfSpaceProblem {
             }
             if !newton {
                 progress.damp();
-                self.aim(&mut progress.iterate);
             }
         }
         work.transforms += (self.operator.transforms() - before) as f64;

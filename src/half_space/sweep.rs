@@ -1,20 +1,13 @@
-//! One sweep: a normal half-step, a friction half-step, and the shift that a given force takes.
+//! One sweep: a normal half-step and a friction half-step.
 
 use super::coupled::Coupled;
-use super::friction::{FrictionHalfStep, Rubbed};
+use super::friction::FrictionHalfStep;
 use super::normal::{NormalHalfStep, Pressed};
 use super::outcome::HalfSpaceState;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, add, add_pair, norm, norm_pair, sum, total, zero_pair};
+use super::vectors::{Pair, add, norm, norm_pair, total, zero_pair};
 use crate::error::Error;
-
-/// Relative tolerance of the stiffness K that corrects the shift: it only steers.
-const STIFFNESS: f64 = 0.1;
-
-/// Longest move of the other side at a time, over the longest slip, once there is any: what all contacts that
-/// slip carry nears the edge like the inverse square of the shift, to which a tangent tells nothing far away.
-const FARTHEST: f64 = 3.0;
 
 /// A contact this close to the edge of its disc, relative to the radius, is scaled with it.
 const ON_EDGE: f64 = 1e-9;
@@ -237,7 +230,7 @@ impl HalfSpaceProblem {
             (iterate.contact, iterate.bound) = (contact, bound);
             return 0.0;
         }
-        let mut force = iterate.scaled(&contact, &bound);
+        let force = iterate.scaled(&contact, &bound);
         let pressing = pressed.points.gather(&pressed.force);
         let mut constant = self
             .operator
@@ -247,22 +240,24 @@ impl HalfSpaceProblem {
                 *entry = -*entry - reference[cell];
             }
         }
-        if let (Drag::Force(wanted), true) = (self.drag, iterate.contact.is_empty()) {
-            force = spread(wanted, &bound);
-            let product = self.operator.tangential(&force, &contact, &contact);
-            iterate.shift = mean_slip([&product, &constant], &bound);
-        }
         for (part, shift) in constant.iter_mut().zip(iterate.shift) {
             part.iter_mut().for_each(|entry| *entry -= shift);
         }
-        let half = FrictionHalfStep {
+        let mut half = FrictionHalfStep {
             operator: &self.operator,
             points: &contact,
             bound: &bound,
-            constant: &constant,
+            constant,
             scale: norm(&pressing).hypot(norm_pair(&force)),
         };
-        let rubbed = half.solve(force, target);
+        let rubbed = match self.drag {
+            Drag::Shift(_) => half.solve(force, target),
+            Drag::Force(wanted) => {
+                let (rubbed, moved) = half.solve_under(wanted, force, target);
+                iterate.shift = [0, 1].map(|axis| iterate.shift[axis] + moved[axis]);
+                rubbed
+            }
+        };
         (iterate.rubbing, iterate.slip) = (rubbed.force, rubbed.slip);
         (iterate.contact, iterate.bound) = (contact, bound);
         rubbed.residual
@@ -281,66 +276,4 @@ impl HalfSpaceProblem {
             false => [0.0; 2],
         }
     }
-
-    /// Moves the other side by what the missing force takes, and the contacts with it.
-    pub(super) fn aim(&self, iterate: &mut Iterate) {
-        let Drag::Force([x, y]) = self.drag else {
-            return;
-        };
-        let half = FrictionHalfStep {
-            operator: &self.operator,
-            points: &iterate.contact,
-            bound: &iterate.bound,
-            constant: &iterate.slip,
-            scale: 1.0,
-        };
-        let state = Rubbed::new(iterate.rubbing.clone(), iterate.slip.clone());
-        let tangent = half.tangent(&state);
-        let contacts = iterate.contact.len();
-        let steps = [0, 1].map(|axis| {
-            let mut unit = zero_pair(contacts);
-            unit[axis].fill(1.0);
-            half.newton(&tangent, unit, STIFFNESS).0
-        });
-        let missing = [
-            x - total(&iterate.rubbing[0]),
-            y - total(&iterate.rubbing[1]),
-        ];
-        let [[k_xx, k_yx], [k_xy, k_yy]] =
-            [0, 1].map(|axis| [0, 1].map(|row| total(&steps[axis][row])));
-        let determinant = k_xx * k_yy - k_xy * k_yx;
-        if determinant.is_nan() || determinant <= 1e-12 * k_xx * k_yy {
-            return;
-        }
-        let moved = [
-            (k_yy * missing[0] - k_xy * missing[1]) / determinant,
-            (k_xx * missing[1] - k_yx * missing[0]) / determinant,
-        ];
-        let slips = (0..contacts).map(|at| iterate.slip[0][at].hypot(iterate.slip[1][at]));
-        let longest = FARTHEST * slips.fold(0.0, f64::max) / moved[0].hypot(moved[1]);
-        let moved = moved.map(|part| part * longest.min(1.0));
-        for axis in 0..2 {
-            iterate.shift[axis] += moved[axis];
-            add_pair(&mut iterate.rubbing, moved[axis], &steps[axis]);
-        }
-    }
-}
-
-/// A force spread over the contacts like their radii, each at most on its edge.
-fn spread(wanted: [f64; 2], bound: &[f64]) -> Pair {
-    let most = total(bound).max(wanted[0].hypot(wanted[1]));
-    wanted.map(|wanted| bound.iter().map(|bound| wanted * bound / most).collect())
-}
-
-/// Mean over the contacts, weighted by their radii, of the sum of two displacements.
-fn mean_slip(parts: [&Pair; 2], bound: &[f64]) -> [f64; 2] {
-    let most = total(bound);
-    [0, 1].map(|axis| {
-        let weighted = |at: usize| bound[at] * (parts[0][axis][at] + parts[1][axis][at]);
-        if most > 0.0 {
-            sum(bound.len(), weighted) / most
-        } else {
-            0.0
-        }
-    })
 }
