@@ -76,6 +76,13 @@ impl Grid {
         [along(0), along(1)]
     }
 
+    /// Whether a cell is the first or the last along an axis that has several.
+    pub(super) fn at_border(&self, cell: usize) -> bool {
+        let number = [cell % self.cells[0], cell / self.cells[0]];
+        let ends = |axis: usize| number[axis] == 0 || number[axis] + 1 == self.cells[axis];
+        (0..2).any(|axis| self.cells[axis] > 1 && ends(axis))
+    }
+
     /// A value at every cell, from its position.
     pub fn sample(&self, value: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
         (0..self.len())

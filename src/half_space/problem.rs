@@ -163,6 +163,21 @@ impl HalfSpaceProblem {
         self.drag
     }
 
+    /// Cells at the border that press under such normal reactions, where a contact would go on with the body;
+    /// none of a periodic grid, nor of a flat punch that ends with the grid.
+    pub(super) fn pressing_at_border(&self, normal: &[f64]) -> usize {
+        let grid = self.operator.grid();
+        let presses = |cell: &usize| normal[*cell] < 0.0;
+        let border = (0..grid.len()).filter(|&cell| grid.at_border(cell));
+        let edge: Vec<usize> = border.collect();
+        let level = |cell: &usize| self.initial_gap[*cell] == self.initial_gap[edge[0]];
+        let punch = (0..grid.len()).all(|cell| presses(&cell)) && edge.iter().all(level);
+        match self.operator.surroundings() == Surroundings::Periodic || punch {
+            true => 0,
+            false => edge.into_iter().filter(presses).count(),
+        }
+    }
+
     /// Whether any contact has friction.
     pub(super) fn has_friction(&self) -> bool {
         self.friction.iter().any(|&mu| mu > 0.0)

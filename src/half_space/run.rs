@@ -120,12 +120,14 @@ impl HalfSpaceProblem {
                 .map(|(u, before)| u - state.shift[axis] - before)
                 .collect()
         });
+        let at_border = self.pressing_at_border(&state.reaction[0]);
         Ok(HalfSpaceOutcome {
             status,
             certificate,
             state,
             gap,
             slip,
+            at_border,
             work,
         })
     }
