@@ -1,8 +1,9 @@
 //! A state of all contacts with its displacements, and how far it is from all laws.
 
+use super::friction::onto_disc;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, norm, sum, total};
+use super::vectors::{Pair, dot, norm, sum, total};
 
 /// A state with its displacements, on the whole grid.
 #[derive(Clone, Debug)]
@@ -58,30 +59,24 @@ impl Coupled {
         let [p, x, y] = &self.force;
         let square = sum(p.len(), |at| {
             let normal = p[at].min(self.gap[at] / of_normal);
-            let trial = self.trial(at, of_tangent);
-            let (length, bound) = (
-                trial[0].hypot(trial[1]),
-                problem.friction[at] * p[at].max(0.0),
-            );
-            let factor = if length > bound { bound / length } else { 1.0 };
-            let off = [x[at] - factor * trial[0], y[at] - factor * trial[1]];
-            normal * normal + off[0] * off[0] + off[1] * off[1]
+            let bound = problem.friction[at] * p[at].max(0.0);
+            let [q_x, q_y] = onto_disc(self.trial(at, of_tangent), bound);
+            normal.powi(2) + (x[at] - q_x).powi(2) + (y[at] - q_y).powi(2)
         });
-        let size = self
-            .force
-            .iter()
-            .fold(0.0, |size: f64, part| size.hypot(norm(part)));
-        let most = sum(p.len(), |at| problem.friction[at] * p[at]);
+        let size = norm(p).hypot(norm(x)).hypot(norm(y));
+        let most = dot(&problem.friction, p);
         let missing = self.missing(problem);
         let wanted = [total(p), most.max(norm(&missing[1..]))];
         let off = [0, 1, 2].map(|row| match missing[row] == 0.0 {
             true => 0.0,
             false => missing[row] / wanted[row.min(1)],
         });
-        match square == 0.0 {
-            true => norm(&off),
-            false => (square.sqrt() / size).hypot(norm(&off)),
-        }
+        let laws = if square > 0.0 {
+            square.sqrt() / size
+        } else {
+            square
+        };
+        laws.hypot(norm(&off))
     }
 
     /// `q − w/G_xx`.

@@ -101,7 +101,7 @@ impl HalfSpaceProblem {
         mut work: HalfSpaceWork,
     ) -> Result<HalfSpaceOutcome, Error> {
         let end = self.run(start, tolerance, &mut work);
-        let state = end.iterate.state(self);
+        let state = end.iterate.state();
         let judged = judge(self, &state)?;
         let certificate = judged.certificate;
         let sound = certificate.residual <= tolerance
@@ -258,7 +258,7 @@ impl Progress {
     }
 
     fn take(&mut self, problem: &HalfSpaceProblem, state: &Coupled) {
-        self.iterate = Iterate::of(problem, state);
+        self.iterate = Iterate::of(problem, state.force.clone(), state.approach, state.shift);
         self.residual = state.residual;
     }
 

@@ -6,7 +6,7 @@ use super::normal::{NormalHalfStep, Pressed};
 use super::outcome::HalfSpaceState;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, add, norm, norm_pair, total, zero_pair};
+use super::vectors::{Pair, add, dot, norm, norm_pair, total};
 use crate::error::Error;
 
 /// A contact this close to the edge of its disc, relative to the radius, is scaled with it.
@@ -15,15 +15,10 @@ const ON_EDGE: f64 = 1e-9;
 /// Where the outer loop stands.
 #[derive(Clone, Debug)]
 pub(super) struct Iterate {
-    /// p per cell, in N.
-    pressing: Vec<f64>,
+    /// p, and q along x and y, in N per cell.
+    force: [Vec<f64>; 3],
     /// `G_NT q` per cell, in metre.
     raised: Vec<f64>,
-    /// Contacts with a disc, their q and radius in N, and their slip in metre.
-    contact: Points,
-    rubbing: Pair,
-    bound: Vec<f64>,
-    slip: Pair,
     approach: f64,
     shift: [f64; 2],
 }
@@ -31,14 +26,10 @@ pub(super) struct Iterate {
 impl Iterate {
     /// Nothing pressed.
     pub(super) fn new(problem: &HalfSpaceProblem) -> Self {
-        let cells = problem.friction.len();
+        let none = vec![0.0; problem.friction.len()];
         Self {
-            pressing: vec![0.0; cells],
-            raised: vec![0.0; cells],
-            contact: Points::select(problem.operator.grid(), |_| false),
-            rubbing: zero_pair(0),
-            bound: Vec::new(),
-            slip: zero_pair(0),
+            force: [none.clone(), none.clone(), none.clone()],
+            raised: none,
             approach: 0.0,
             shift: match problem.drag {
                 Drag::Shift(shift) => shift,
@@ -57,40 +48,14 @@ impl Iterate {
             column / ratio[0] + from.cells[0] * (row / ratio[1])
         };
         let spread = |field: &[f64], share: f64| -> Vec<f64> {
-            (0..to.len())
-                .map(|cell| share * field[coarse_of(cell)])
-                .collect()
+            let of = |cell: usize| share * field[coarse_of(cell)];
+            (0..to.len()).map(of).collect()
         };
-        let of_points = |values: &[f64]| self.contact.scatter(values, from.len());
-        let bound = spread(&of_points(&self.bound), share);
-        let contact = Points::select(to, |cell| bound[cell] > 0.0);
-        let on_contact =
-            |values: &Vec<f64>, share| contact.gather(&spread(&of_points(values), share));
         Self {
-            pressing: spread(&self.pressing, share),
+            force: [0, 1, 2].map(|component| spread(&self.force[component], share)),
             raised: spread(&self.raised, 1.0),
-            rubbing: [0, 1].map(|axis| on_contact(&self.rubbing[axis], share)),
-            slip: [0, 1].map(|axis| on_contact(&self.slip[axis], 1.0)),
-            bound: contact.gather(&bound),
-            contact,
-            approach: self.approach,
-            shift: self.shift,
+            ..*self
         }
-    }
-
-    /// Tangential forces on new contacts: slipping ones grow and shrink with their radius.
-    fn scaled(&self, contact: &Points, bound: &[f64]) -> Pair {
-        let mut force = [0, 1].map(|axis| contact.carry(&self.contact, &self.rubbing[axis]));
-        let before = contact.carry(&self.contact, &self.bound);
-        for at in 0..bound.len() {
-            let length = force[0][at].hypot(force[1][at]);
-            if length > 0.0 && length >= before[at] * (1.0 - ON_EDGE) {
-                force
-                    .iter_mut()
-                    .for_each(|part| part[at] *= bound[at] / length);
-            }
-        }
-        force
     }
 
     /// The iterate of a state given by the user; reactions that pull count as none.
@@ -101,50 +66,40 @@ impl Iterate {
             Drag::Shift(shift) => shift,
             Drag::Force(_) => near.shift,
         };
-        let force = [pressing, x, y];
-        Self::of(problem, &Coupled::new(problem, force, near.approach, shift))
+        Self::of(problem, [pressing, x, y], near.approach, shift)
+    }
+
+    /// The iterate of such forces; without a disc there is no friction.
+    pub(super) fn of(
+        problem: &HalfSpaceProblem,
+        [pressing, x, y]: [Vec<f64>; 3],
+        approach: f64,
+        shift: [f64; 2],
+    ) -> Self {
+        let (operator, cells) = (&problem.operator, pressing.len());
+        let contact = problem.discs(&pressing);
+        let rubbing = [contact.gather(&x), contact.gather(&y)];
+        let raised = operator.normal_of_tangential(&rubbing, &contact, operator.whole());
+        let [x, y] = rubbing.map(|part| contact.scatter(&part, cells));
+        Self {
+            force: [pressing, x, y],
+            raised,
+            approach,
+            shift,
+        }
     }
 
     /// The iterate as Newton's method takes it, with fresh products.
     pub(super) fn coupled(&self, problem: &HalfSpaceProblem) -> Coupled {
-        let cells = problem.friction.len();
-        let [x, y] = [0, 1].map(|axis| self.contact.scatter(&self.rubbing[axis], cells));
-        Coupled::new(
-            problem,
-            [self.pressing.clone(), x, y],
-            self.approach,
-            self.shift,
-        )
-    }
-
-    /// The iterate of a state that Newton's method left.
-    pub(super) fn of(problem: &HalfSpaceProblem, state: &Coupled) -> Self {
-        let [pressing, x, y] = &state.force;
-        let radius = |cell: usize| problem.friction[cell] * pressing[cell];
-        let contact = Points::select(problem.operator.grid(), |cell| radius(cell) > 0.0);
-        let rubbing = [contact.gather(x), contact.gather(y)];
-        let whole = problem.operator.whole();
-        Self {
-            pressing: pressing.clone(),
-            raised: problem
-                .operator
-                .normal_of_tangential(&rubbing, &contact, whole),
-            bound: contact.cells().iter().map(|&cell| radius(cell)).collect(),
-            slip: [0, 1].map(|axis| contact.gather(&state.slip[axis])),
-            contact,
-            rubbing,
-            approach: state.approach,
-            shift: state.shift,
-        }
+        Coupled::new(problem, self.force.clone(), self.approach, self.shift)
     }
 
     /// As the user sees it.
-    pub(super) fn state(&self, problem: &HalfSpaceProblem) -> HalfSpaceState {
-        let cells = problem.friction.len();
-        let [x, y] = [0, 1].map(|axis| self.contact.scatter(&self.rubbing[axis], cells));
+    pub(super) fn state(&self) -> HalfSpaceState {
+        let [pressing, x, y] = self.force.clone();
         HalfSpaceState {
             // Without negative zeros.
-            reaction: [self.pressing.iter().map(|p| 0.0 - p).collect(), x, y],
+            reaction: [pressing.iter().map(|p| 0.0 - p).collect(), x, y],
             approach: self.approach,
             shift: self.shift,
         }
@@ -197,54 +152,44 @@ impl HalfSpaceProblem {
             constant: &constant,
             load,
         };
-        let pressed = half.solve(std::mem::take(&mut iterate.pressing), target);
-        iterate.approach = given + pressed.approach;
-        if !self.has_friction() {
-            iterate.pressing = pressed.force;
-            return pressed.residual;
+        let mut pressed = half.solve(iterate.force[0].clone(), target);
+        let mut of_friction = 0.0;
+        if self.has_friction() {
+            let raised;
+            (of_friction, raised) = self.rub(iterate, &pressed, target);
+            let mut gap = pressed.gap;
+            add(&mut gap, 1.0, &iterate.raised);
+            add(&mut gap, -1.0, &raised);
+            for (before, now) in iterate.raised.iter_mut().zip(&raised) {
+                *before += share * (now - *before);
+            }
+            pressed = half.measure(pressed.force, gap, pressed.points);
         }
-        let of_friction = self.rub(iterate, &pressed, target);
-        let (contact, whole) = (&iterate.contact, self.operator.whole());
-        let raised = self
-            .operator
-            .normal_of_tangential(&iterate.rubbing, contact, whole);
-        let mut gap = pressed.gap;
-        add(&mut gap, 1.0, &iterate.raised);
-        add(&mut gap, -1.0, &raised);
-        for (before, now) in iterate.raised.iter_mut().zip(&raised) {
-            *before += share * (now - *before);
-        }
-        let pressed = half.measure(pressed.force, gap, pressed.points);
-        iterate.pressing = pressed.force;
+        iterate.force[0] = pressed.force;
         iterate.approach = given + pressed.approach;
         pressed.residual.hypot(of_friction)
     }
 
-    /// The friction half-step under new pressing forces; gives its residual.
-    fn rub(&self, iterate: &mut Iterate, pressed: &Pressed, target: f64) -> f64 {
-        let radius = |cell: usize| self.friction[cell] * pressed.force[cell];
-        let contact = Points::select(self.operator.grid(), |cell| radius(cell) > 0.0);
-        let bound: Vec<f64> = contact.cells().iter().map(|&cell| radius(cell)).collect();
+    /// The friction half-step under new pressing forces; gives its residual, and what it lifts.
+    fn rub(&self, iterate: &mut Iterate, pressed: &Pressed, target: f64) -> (f64, Vec<f64>) {
+        let (operator, cells) = (&self.operator, self.friction.len());
+        let contact = self.discs(&pressed.force);
         if contact.is_empty() {
-            (iterate.rubbing, iterate.slip) = (zero_pair(0), zero_pair(0));
-            (iterate.contact, iterate.bound) = (contact, bound);
-            return 0.0;
+            iterate.force[1..]
+                .iter_mut()
+                .for_each(|part| part.fill(0.0));
+            return (0.0, vec![0.0; cells]);
         }
-        let force = iterate.scaled(&contact, &bound);
+        let (bound, force) = self.scaled(iterate, &contact, &pressed.force);
         let pressing = pressed.points.gather(&pressed.force);
-        let mut constant = self
-            .operator
-            .tangential_of_normal(&pressing, &pressed.points, &contact);
-        for (part, reference) in constant.iter_mut().zip(&self.reference) {
-            for (entry, &cell) in part.iter_mut().zip(contact.cells()) {
-                *entry = -*entry - reference[cell];
+        let mut constant = operator.tangential_of_normal(&pressing, &pressed.points, &contact);
+        for axis in 0..2 {
+            for (entry, &cell) in constant[axis].iter_mut().zip(contact.cells()) {
+                *entry = -*entry - self.reference[axis][cell] - iterate.shift[axis];
             }
         }
-        for (part, shift) in constant.iter_mut().zip(iterate.shift) {
-            part.iter_mut().for_each(|entry| *entry -= shift);
-        }
         let mut half = FrictionHalfStep {
-            operator: &self.operator,
+            operator,
             points: &contact,
             bound: &bound,
             constant,
@@ -258,9 +203,38 @@ impl HalfSpaceProblem {
                 rubbed
             }
         };
-        (iterate.rubbing, iterate.slip) = (rubbed.force, rubbed.slip);
-        (iterate.contact, iterate.bound) = (contact, bound);
-        rubbed.residual
+        let raised = operator.normal_of_tangential(&rubbed.force, &contact, operator.whole());
+        for (field, part) in iterate.force[1..].iter_mut().zip(&rubbed.force) {
+            *field = contact.scatter(part, cells);
+        }
+        (rubbed.residual, raised)
+    }
+
+    /// Cells whose disc has a radius under such pressing forces.
+    fn discs(&self, pressing: &[f64]) -> Points {
+        Points::select(self.operator.grid(), |cell| {
+            self.friction[cell] * pressing[cell] > 0.0
+        })
+    }
+
+    /// Radii of new contacts, and their tangential forces: slipping ones grow and shrink with the radius.
+    fn scaled(&self, iterate: &Iterate, contact: &Points, pressing: &[f64]) -> (Vec<f64>, Pair) {
+        let radii = |pressing: &[f64]| -> Vec<f64> {
+            let of = |&cell: &usize| self.friction[cell] * pressing[cell];
+            contact.cells().iter().map(of).collect()
+        };
+        let [pressed, x, y] = &iterate.force;
+        let (before, bound) = (radii(pressed), radii(pressing));
+        let mut force = [contact.gather(x), contact.gather(y)];
+        for at in 0..bound.len() {
+            let length = force[0][at].hypot(force[1][at]);
+            if length > 0.0 && length >= before[at] * (1.0 - ON_EDGE) {
+                force
+                    .iter_mut()
+                    .for_each(|part| part[at] *= bound[at] / length);
+            }
+        }
+        (bound, force)
     }
 
     /// What a given force lacks, relative to what friction can carry, and by how much it exceeds that.
@@ -268,8 +242,8 @@ impl HalfSpaceProblem {
         let Drag::Force([x, y]) = self.drag else {
             return [0.0; 2];
         };
-        let most = total(&iterate.bound);
-        let missing = (x - total(&iterate.rubbing[0])).hypot(y - total(&iterate.rubbing[1]));
+        let most = dot(&self.friction, &iterate.force[0]);
+        let missing = (x - total(&iterate.force[1])).hypot(y - total(&iterate.force[2]));
         let wanted = x.hypot(y);
         match missing > 0.0 {
             true => [missing / most.max(wanted), (wanted - most) / wanted],
