@@ -67,6 +67,7 @@ mod operator;
 mod outcome;
 mod points;
 mod problem;
+mod range;
 mod rectangle;
 mod rolling;
 mod rough;

@@ -14,6 +14,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::grid::Grid;
+use super::range::check_range;
 use crate::error::{Error, check_finite};
 
 /// What decides a surface.
@@ -78,42 +79,39 @@ impl SelfAffine {
     fn check(&self, grid: &Grid) -> Result<(), Error> {
         let numbers = [self.hurst, self.roll_off, self.cut_off, self.slope];
         check_finite("surface", &numbers)?;
-        let coarsest = grid.spacing[0].max(if grid.cells[1] > 1 {
+        let across = if grid.cells[1] > 1 {
             grid.spacing[1]
         } else {
             0.0
-        });
+        };
+        let coarsest = grid.spacing[0].max(across);
         // What is computed as two cells may be below by round-off.
         let shortest = 2.0 * coarsest * (1.0 - 1e-12);
-        let refused = [
+        let (hurst, cut_off, roll_off) = (self.hurst, self.cut_off, self.roll_off);
+        for (field, value, good, accepted) in [
             (
                 "hurst",
-                self.hurst,
-                (0.0..=1.0).contains(&self.hurst),
+                hurst,
+                (0.0..=1.0).contains(&hurst),
                 "0 <= hurst <= 1",
             ),
             (
                 "cut_off",
-                self.cut_off,
-                self.cut_off >= shortest,
+                cut_off,
+                cut_off >= shortest,
                 "cut_off >= two cells",
             ),
             (
                 "roll_off",
-                self.roll_off,
-                self.roll_off >= self.cut_off,
+                roll_off,
+                roll_off >= cut_off,
                 "roll_off >= cut_off",
             ),
             ("slope", self.slope, self.slope >= 0.0, "slope >= 0"),
-        ];
-        match refused.into_iter().find(|(.., good, _)| !good) {
-            None => Ok(()),
-            Some((field, value, _, accepted)) => Err(Error::OutOfRange {
-                place: format!("surface.{field}"),
-                value,
-                accepted,
-            }),
+        ] {
+            check_range(format!("surface.{field}"), value, good, accepted)?;
         }
+        Ok(())
     }
 
     /// φ of a wave, in radian (SplitMix64 of its numbers and the seed).

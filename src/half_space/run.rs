@@ -13,6 +13,7 @@ use super::coupled::Coupled;
 use super::judge::judge;
 use super::outcome::{HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork};
 use super::problem::HalfSpaceProblem;
+use super::range::check_range;
 use super::sweep::Iterate;
 use crate::error::{Error, check_finite, check_length};
 
@@ -188,14 +189,8 @@ impl HalfSpaceProblem {
 }
 
 fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    if (1e-15..=1e-2).contains(&tolerance) {
-        return Ok(());
-    }
-    Err(Error::OutOfRange {
-        place: "tolerance".to_owned(),
-        value: tolerance,
-        accepted: "from 1e-15 to 1e-2",
-    })
+    let good = (1e-15..=1e-2).contains(&tolerance);
+    check_range("tolerance", tolerance, good, "from 1e-15 to 1e-2")
 }
 
 /// Where the loop stands, and how well it goes.
