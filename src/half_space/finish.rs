@@ -174,19 +174,14 @@ impl<'a> Linearised<'a> {
 
     /// Right side of (S13): normal, x, y of the contacts, then the resultants.
     fn right(&self, placed: &Coupled) -> Vec<f64> {
-        let lacks = |field: &Vec<f64>| self.points.gather(field).iter().map(|v| -v).collect();
-        let mut lack: [Vec<f64>; 3] = [&placed.gap, &placed.slip[0], &placed.slip[1]].map(lacks);
-        for (lack, force) in lack.iter_mut().zip(&placed.force).skip(1) {
-            let bent = self
-                .points
-                .gather(force)
-                .into_iter()
-                .zip(&self.tangent.curvature);
-            let pairs = lack.iter_mut().zip(bent);
-            pairs.for_each(|(lack, (force, curvature))| *lack -= curvature * force);
-        }
+        let [q_x, q_y] = [1, 2].map(|axis| self.points.gather(&placed.force[axis]));
+        let mut laws =
+            [&placed.gap, &placed.slip[0], &placed.slip[1]].map(|w| self.points.gather(w));
+        let [_, x, y] = &mut laws;
+        self.tangent.bend([x, y], [&q_x, &q_y]);
         // Frictionless contacts have no equation along the tangents.
-        let mut right = self.projected(lack);
+        let mut right = self.projected(laws);
+        right.iter_mut().for_each(|entry| *entry = -*entry);
         let missing = placed.missing(self.problem);
         right.extend(self.resultants.iter().map(|&row| missing[row]));
         right
@@ -246,11 +241,9 @@ impl Linear for Linearised<'_> {
         let [mut normal, x, y] = operator.full([&lifted, &x, &y], points, points);
         normal.iter_mut().for_each(|u| *u = -*u);
         let mut image = [normal, x, y];
-        let own = self.parts(unknown);
-        for (image, own) in image.iter_mut().zip(own).skip(1) {
-            let pairs = image.iter_mut().zip(own).zip(&self.tangent.curvature);
-            pairs.for_each(|((image, own), curvature)| *image += curvature * own);
-        }
+        let [_, x, y] = &mut image;
+        let [_, of_x, of_y] = self.parts(unknown);
+        self.tangent.bend([x, y], [of_x, of_y]);
         for (&row, scalar) in self.resultants.iter().zip(&unknown[3 * points.len()..]) {
             image[row].iter_mut().for_each(|entry| *entry -= scalar);
         }

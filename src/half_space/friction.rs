@@ -166,7 +166,9 @@ impl FrictionHalfStep<'_> {
             }
             let of_direction = self.product(&direction);
             let mut image = of_direction.clone();
-            tangent.bend(&mut image, &direction);
+            let [x, y] = &direction;
+            tangent.bend(image.each_mut(), [x, y]);
+            tangent.project_pair(&mut image);
             let curvature = dot_pair(&direction, &image);
             let size = dot_pair(&direction, &direction);
             let flat = curvature <= FLAT * self.operator.diagonal()[1] * size;
@@ -311,13 +313,12 @@ impl Tangent {
         self.project([x, y]);
     }
 
-    /// Adds Λ times `direction` and projects.
-    fn bend(&self, image: &mut Pair, direction: &Pair) {
-        for (image, direction) in image.iter_mut().zip(direction) {
+    /// Adds Λ times `direction`.
+    pub(super) fn bend(&self, image: [&mut Vec<f64>; 2], direction: [&[f64]; 2]) {
+        for (image, direction) in image.into_iter().zip(direction) {
             let pairs = image.iter_mut().zip(direction).zip(&self.curvature);
             pairs.for_each(|((image, direction), curvature)| *image += curvature * direction);
         }
-        self.project_pair(image);
     }
 }
 

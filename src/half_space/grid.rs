@@ -75,6 +75,16 @@ impl Grid {
         (0..2).any(|axis| self.cells[axis] > 1 && ends(axis))
     }
 
+    /// The cell of a coarser grid over the same area that a cell lies in, for every cell.
+    pub(super) fn within(&self, coarser: &Self) -> Vec<usize> {
+        let of = |cell: usize| {
+            let [column, row] = [cell % self.cells[0], cell / self.cells[0]];
+            let along = |axis: usize, at: usize| at * coarser.cells[axis] / self.cells[axis];
+            along(0, column) + coarser.cells[0] * along(1, row)
+        };
+        (0..self.len()).map(of).collect()
+    }
+
     /// A value at every cell, from its position.
     pub fn sample(&self, value: impl Fn([f64; 2]) -> f64) -> Vec<f64> {
         (0..self.len())

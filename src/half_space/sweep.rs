@@ -41,15 +41,9 @@ impl Iterate {
     /// The forces of a coarser grid, spread over the cells of a finer one.
     pub(super) fn refined(&self, coarse: &HalfSpaceProblem, fine: &HalfSpaceProblem) -> Self {
         let (from, to) = (coarse.operator.grid(), fine.operator.grid());
-        let ratio = [0, 1].map(|axis| to.cells[axis] / from.cells[axis]);
-        let share = 1.0 / (ratio[0] * ratio[1]) as f64;
-        let coarse_of = |cell: usize| {
-            let [column, row] = [cell % to.cells[0], cell / to.cells[0]];
-            column / ratio[0] + from.cells[0] * (row / ratio[1])
-        };
+        let (share, within) = (from.len() as f64 / to.len() as f64, to.within(from));
         let spread = |field: &[f64], share: f64| -> Vec<f64> {
-            let of = |cell: usize| share * field[coarse_of(cell)];
-            (0..to.len()).map(of).collect()
+            within.iter().map(|&cell| share * field[cell]).collect()
         };
         Self {
             force: [0, 1, 2].map(|component| spread(&self.force[component], share)),
@@ -113,28 +107,18 @@ impl HalfSpaceProblem {
             return Ok(None);
         };
         let (from, to) = (self.operator.grid(), operator.grid());
-        let ratio = [0, 1].map(|axis| from.cells[axis] / to.cells[axis]);
+        let (share, within) = (to.len() as f64 / from.len() as f64, from.within(to));
         let mean = |field: &[f64]| -> Vec<f64> {
-            let of = |cell: usize| {
-                let [column, row] = [cell % to.cells[0] * ratio[0], cell / to.cells[0] * ratio[1]];
-                let parts = (0..ratio[1]).flat_map(|j| (0..ratio[0]).map(move |i| (i, j)));
-                let sum: f64 = parts
-                    .map(|(i, j)| field[column + i + from.cells[0] * (row + j)])
-                    .sum();
-                sum / (ratio[0] * ratio[1]) as f64
-            };
-            (0..to.len()).map(of).collect()
+            let mut mean = vec![0.0; to.len()];
+            for (&cell, value) in within.iter().zip(field) {
+                mean[cell] += share * value;
+            }
+            mean
         };
-        let coarse = Self::new(
-            operator.clone(),
-            mean(&self.initial_gap),
-            &mean(&self.friction),
-            self.press,
-        )?;
-        let coarse = coarse.dragged(self.drag)?;
-        coarse
-            .after([0, 1].map(|axis| mean(&self.reference[axis])))
-            .map(Some)
+        let (gap, friction) = (mean(&self.initial_gap), mean(&self.friction));
+        let coarse = Self::new(operator.clone(), gap, &friction, self.press)?;
+        let reference = self.reference.each_ref().map(|part| mean(part));
+        coarse.dragged(self.drag)?.after(reference).map(Some)
     }
 
     /// Both half-steps; gives the residual of the laws at all contacts.
