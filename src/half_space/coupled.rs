@@ -3,7 +3,7 @@
 use super::friction::onto_disc;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, dot, norm, sum, total};
+use super::vectors::{Pair, add, dot, norm, sum, total};
 
 /// A state with its displacements, on the whole grid.
 #[derive(Clone, Debug)]
@@ -38,9 +38,8 @@ impl Coupled {
         let gap = gaps.map(|(gap, u)| gap - approach - u).collect();
         let mut slip = [x, y];
         for axis in 0..2 {
-            for (slip, before) in slip[axis].iter_mut().zip(&problem.reference[axis]) {
-                *slip -= shift[axis] + before;
-            }
+            add(&mut slip[axis], -1.0, &problem.reference[axis]);
+            slip[axis].iter_mut().for_each(|w| *w -= shift[axis]);
         }
         let mut state = Self {
             force,

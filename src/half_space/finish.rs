@@ -23,7 +23,7 @@ use super::friction::{Tangent, onto_disc, pick, put};
 use super::gmres::{Linear, gmres};
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{add, total};
+use super::vectors::{add, largest, total};
 
 /// Newton steps.
 const MOST_STEPS: usize = 20;
@@ -52,10 +52,7 @@ impl HalfSpaceProblem {
             if best.residual <= tolerance {
                 break;
             }
-            let most = last
-                .iter()
-                .fold(0.0, |most: f64, residual| most.max(*residual));
-            let Some(next) = self.newton(&state, most, tolerance) else {
+            let Some(next) = self.newton(&state, largest(&last), tolerance) else {
                 break;
             };
             state = next;

@@ -12,7 +12,7 @@
 
 use super::operator::HalfSpace;
 use super::points::Points;
-use super::vectors::{Pair, add_pair, dot_pair, norm_pair, sum, zero_pair};
+use super::vectors::{Pair, add_pair, dot_pair, largest, norm_pair, sum, zero_pair};
 
 /// Newton steps after which the half-step gives up.
 const MOST_STEPS: usize = 80;
@@ -85,11 +85,10 @@ impl FrictionHalfStep<'_> {
             let tangent = self.tangent(&state);
             let wanted =
                 (0.3 * tolerance / state.residual).clamp(INNER_TOLERANCE[0], INNER_TOLERANCE[1]);
-            let mut right = state.slip.clone();
-            right
-                .iter_mut()
-                .flatten()
-                .for_each(|entry| *entry = -*entry);
+            let right = state
+                .slip
+                .each_ref()
+                .map(|part| part.iter().map(|w| -w).collect());
             let (step, product) = self.newton(&tangent, right, wanted);
             let next = self.search(&state, &tangent, &step, &product);
             match next.or_else(|| self.projected_gradient(&state)) {
@@ -191,10 +190,7 @@ impl FrictionHalfStep<'_> {
 
     /// A length that leaves every disc.
     fn beyond(&self) -> f64 {
-        4.0 * self
-            .bound
-            .iter()
-            .fold(0.0_f64, |most, bound| most.max(*bound))
+        4.0 * largest(self.bound)
     }
 
     /// The longest of some shares of a Newton step, drawn back, that lowers energy or residual.

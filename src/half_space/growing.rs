@@ -12,6 +12,7 @@
 use super::coupled::Coupled;
 use super::outcome::HalfSpaceWork;
 use super::problem::{Drag, HalfSpaceProblem};
+use super::vectors::largest;
 
 /// μ|β| that half-steps in turn cope with.
 const WEAK: f64 = 0.5;
@@ -28,11 +29,7 @@ const ON_EDGE: f64 = 1e-6;
 impl HalfSpaceProblem {
     /// Largest μ|β|.
     pub(super) fn strength(&self) -> f64 {
-        let most = self
-            .friction
-            .iter()
-            .fold(0.0, |most: f64, mu| most.max(*mu));
-        most * self.operator.dundurs()
+        largest(&self.friction) * self.operator.dundurs()
     }
 
     /// Follows (S17) from rest; nothing where s cannot reach 1.

@@ -67,10 +67,9 @@ impl SelfAffine {
                 waves[at(-column, -row)] = wave.conj();
             }
         }
-        let factor = if square > 0.0 {
-            self.slope / square.sqrt()
-        } else {
-            0.0
+        let factor = match square > 0.0 {
+            true => self.slope / square.sqrt(),
+            false => 0.0,
         };
         transform(&mut waves, grid.cells);
         Ok(waves.iter().map(|wave| factor * wave.re).collect())

@@ -117,9 +117,8 @@ impl HalfSpaceProblem {
         let gap = gaps.map(|(u, gap)| gap - state.approach - u).collect();
         let slip = [0, 1].map(|axis| {
             let pairs = judged.elastic[axis + 1].iter().zip(&self.reference[axis]);
-            pairs
-                .map(|(u, before)| u - state.shift[axis] - before)
-                .collect()
+            let of = |(u, before)| u - state.shift[axis] - before;
+            pairs.map(of).collect()
         });
         let at_border = self.pressing_at_border(&state.reaction[0]);
         Ok(HalfSpaceOutcome {
@@ -159,29 +158,21 @@ impl HalfSpaceProblem {
     ) -> Progress {
         let before = self.operator.transforms();
         let mut may_grow = self.strength() > STRONG;
-        for outer in 1..=MOST_OUTER {
-            work.outer = outer;
-            let fall = progress.sweep(self, tolerance);
-            if progress.ends(tolerance) {
-                break;
+        while work.outer < MOST_OUTER && !progress.ends(tolerance) {
+            work.outer += 1;
+            let slow = progress.sweep(self, tolerance) > SLOW && work.outer > 1;
+            let helped = slow && !progress.ends(tolerance) && progress.newton(self, tolerance);
+            if helped || progress.ends(tolerance) {
+                continue;
             }
-            let newton = outer > 1 && fall > SLOW && progress.newton(self, tolerance);
-            if progress.ends(tolerance) {
-                break;
-            }
-            if may_grow && !newton && progress.share < 1.0 {
+            if may_grow && progress.share < 1.0 {
                 may_grow = false;
                 if let Some(state) = self.grown(tolerance, work) {
                     progress.take(self, &state);
-                    if progress.ends(tolerance) {
-                        break;
-                    }
                     continue;
                 }
             }
-            if !newton {
-                progress.damp();
-            }
+            progress.damp();
         }
         work.transforms += (self.operator.transforms() - before) as f64;
         progress
