@@ -3,15 +3,22 @@
 use super::friction::onto_disc;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, add, dot, norm, sum, total};
+use super::vectors::{Pair, add, dot, norm, scaled, sum, total};
+
+/// What decides a state: forces per cell, and the rigid motion of the other side.
+#[derive(Clone, Debug)]
+pub(super) struct Held {
+    /// p, and q along x and y, in N per cell.
+    pub(super) force: [Vec<f64>; 3],
+    /// In metre.
+    pub(super) approach: f64,
+    pub(super) shift: [f64; 2],
+}
 
 /// A state with its displacements, on the whole grid.
 #[derive(Clone, Debug)]
 pub(super) struct Coupled {
-    /// p, and q along x and y, in N per cell.
-    pub(super) force: [Vec<f64>; 3],
-    pub(super) approach: f64,
-    pub(super) shift: [f64; 2],
+    pub(super) held: Held,
     /// g and w, in metre per cell.
     pub(super) gap: Vec<f64>,
     pub(super) slip: Pair,
@@ -21,18 +28,18 @@ pub(super) struct Coupled {
 
 impl Coupled {
     /// With fresh products.
-    pub(super) fn new(
-        problem: &HalfSpaceProblem,
-        force: [Vec<f64>; 3],
-        approach: f64,
-        shift: [f64; 2],
-    ) -> Self {
+    pub(super) fn new(problem: &HalfSpaceProblem, held: Held) -> Self {
+        let Held {
+            force,
+            approach,
+            shift,
+        } = &held;
         let operator = &problem.operator;
         let points = Points::select(operator.grid(), |cell| {
             force.iter().any(|part| part[cell] != 0.0)
         });
         let [p, x, y] = [0, 1, 2].map(|c| points.gather(&force[c]));
-        let raised: Vec<f64> = p.iter().map(|p| -p).collect();
+        let raised = scaled(&p, -1.0);
         let [normal, x, y] = operator.full([&raised, &x, &y], &points, operator.whole());
         let gaps = problem.initial_gap.iter().zip(&normal);
         let gap = gaps.map(|(gap, u)| gap - approach - u).collect();
@@ -42,9 +49,7 @@ impl Coupled {
             slip[axis].iter_mut().for_each(|w| *w -= shift[axis]);
         }
         let mut state = Self {
-            force,
-            approach,
-            shift,
+            held,
             gap,
             slip,
             residual: 0.0,
@@ -55,7 +60,7 @@ impl Coupled {
 
     fn measure(&self, problem: &HalfSpaceProblem) -> f64 {
         let [of_normal, of_tangent, _] = problem.operator.diagonal();
-        let [p, x, y] = &self.force;
+        let [p, x, y] = &self.held.force;
         let square = sum(p.len(), |at| {
             let normal = p[at].min(self.gap[at] / of_normal);
             let bound = problem.friction[at] * p[at].max(0.0);
@@ -80,18 +85,19 @@ impl Coupled {
 
     /// `q − w/G_xx`.
     pub(super) fn trial(&self, at: usize, of_tangent: f64) -> [f64; 2] {
-        [0, 1].map(|axis| self.force[axis + 1][at] - self.slip[axis][at] / of_tangent)
+        [0, 1].map(|axis| self.held.force[axis + 1][at] - self.slip[axis][at] / of_tangent)
     }
 
     /// Resultants given, less those there are.
     pub(super) fn missing(&self, problem: &HalfSpaceProblem) -> [f64; 3] {
         let normal = match problem.press {
-            Press::Load(load) => load - total(&self.force[0]),
+            Press::Load(load) => load - total(&self.held.force[0]),
             Press::Approach(_) => 0.0,
         };
-        match problem.drag {
-            Drag::Force([x, y]) => [normal, x - total(&self.force[1]), y - total(&self.force[2])],
-            Drag::Shift(_) => [normal, 0.0, 0.0],
-        }
+        let Drag::Force(wanted) = problem.drag else {
+            return [normal, 0.0, 0.0];
+        };
+        let [x, y] = [0, 1].map(|axis| wanted[axis] - total(&self.held.force[axis + 1]));
+        [normal, x, y]
     }
 }

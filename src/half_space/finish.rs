@@ -18,12 +18,12 @@ use std::collections::VecDeque;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::coupled::Coupled;
+use super::coupled::{Coupled, Held};
 use super::friction::{Tangent, onto_disc, pick, put};
 use super::gmres::{Linear, gmres};
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{add, largest, total};
+use super::vectors::{add, largest, scaled, total};
 
 /// Newton steps.
 const MOST_STEPS: usize = 20;
@@ -76,35 +76,30 @@ impl HalfSpaceProblem {
         let placed = laws.placed(state);
         let right = laws.right(&placed);
         let relative = tolerance / state.residual;
-        let wanted = if state.residual > 1e-3 {
-            (0.03 * relative).max(1e-3)
-        } else {
-            (0.1 * relative).max(1e-7)
+        let (part, least) = match state.residual > 1e-3 {
+            true => (0.03, 1e-3),
+            false => (0.1, 1e-7),
         };
-        let step = gmres(&laws, &right, wanted)?;
-        let mut share = 1.0;
-        for _ in 0..4 {
+        let step = gmres(&laws, &right, f64::max(part * relative, least))?;
+        let mut shares = [1.0, 0.5, 0.25, 0.125].into_iter();
+        shares.find_map(|share| {
             let next = laws.moved(&placed, &step, share);
-            if next.residual < 0.9 * most {
-                return Some(next);
-            }
-            share *= 0.5;
-        }
-        None
+            (next.residual < 0.9 * most).then_some(next)
+        })
     }
 }
 
 impl<'a> Linearised<'a> {
     fn new(problem: &'a HalfSpaceProblem, state: &Coupled) -> Self {
         let [of_normal, of_tangent, _] = problem.operator.diagonal();
-        let pressed = |cell: usize| state.force[0][cell] - state.gap[cell] / of_normal > 0.0;
+        let pressed = |cell: usize| state.held.force[0][cell] - state.gap[cell] / of_normal > 0.0;
         let points = Points::select(problem.operator.grid(), pressed);
         let friction = points.gather(&problem.friction);
         let mut tangent = Tangent::new(points.len());
         for (at, &cell) in points.cells().iter().enumerate() {
             let trial = state.trial(cell, of_tangent);
             let length = trial[0].hypot(trial[1]);
-            let bound = friction[at] * state.force[0][cell].max(0.0);
+            let bound = friction[at] * state.held.force[0][cell].max(0.0);
             if length > 0.0 && bound > 0.0 && length > bound {
                 let curvature = of_tangent * (length - bound) / bound;
                 let outward = trial.map(|part| part / length);
@@ -151,27 +146,30 @@ impl<'a> Linearised<'a> {
 
     /// Forces where the linearised laws want them: none where open, slipping ones on their circle.
     fn placed(&self, state: &Coupled) -> Coupled {
-        let [p, x, y] = [0, 1, 2].map(|c| self.points.gather(&state.force[c]));
+        let [p, x, y] = [0, 1, 2].map(|c| self.points.gather(&state.held.force[c]));
         let placed = self.forces(&self.projected([p, x, y]));
         self.coupled(state, placed, 0.0, &[])
     }
 
     /// A state of such forces on the contacts, moved by a share of a step's approach and shift.
     fn coupled(&self, from: &Coupled, force: [Vec<f64>; 3], share: f64, step: &[f64]) -> Coupled {
-        let (mut approach, mut shift) = (from.approach, from.shift);
+        let mut held = Held {
+            force: force.map(|part| self.points.scatter(&part, from.gap.len())),
+            approach: from.held.approach,
+            shift: from.held.shift,
+        };
         for (&row, scalar) in self.resultants.iter().zip(step) {
             match row {
-                0 => approach += share * scalar,
-                _ => shift[row - 1] += share * scalar,
+                0 => held.approach += share * scalar,
+                _ => held.shift[row - 1] += share * scalar,
             }
         }
-        let force = force.map(|part| self.points.scatter(&part, from.gap.len()));
-        Coupled::new(self.problem, force, approach, shift)
+        Coupled::new(self.problem, held)
     }
 
     /// Right side of (S13): normal, x, y of the contacts, then the resultants.
     fn right(&self, placed: &Coupled) -> Vec<f64> {
-        let [q_x, q_y] = [1, 2].map(|axis| self.points.gather(&placed.force[axis]));
+        let [q_x, q_y] = [1, 2].map(|axis| self.points.gather(&placed.held.force[axis]));
         let mut laws =
             [&placed.gap, &placed.slip[0], &placed.slip[1]].map(|w| self.points.gather(w));
         let [_, x, y] = &mut laws;
@@ -215,7 +213,7 @@ impl<'a> Linearised<'a> {
     fn moved(&self, placed: &Coupled, step: &[f64], share: f64) -> Coupled {
         let change = self.forces(step);
         let [mut p, x, y] = [0, 1, 2].map(|c| {
-            let mut part = self.points.gather(&placed.force[c]);
+            let mut part = self.points.gather(&placed.held.force[c]);
             add(&mut part, share, &change[c]);
             part
         });
@@ -234,7 +232,7 @@ impl Linear for Linearised<'_> {
     fn apply(&self, unknown: &[f64]) -> Vec<f64> {
         let (operator, points) = (&self.problem.operator, &self.points);
         let [p, x, y] = self.forces(unknown);
-        let lifted: Vec<f64> = p.iter().map(|p| -p).collect();
+        let lifted = scaled(&p, -1.0);
         let [mut normal, x, y] = operator.full([&lifted, &x, &y], points, points);
         normal.iter_mut().for_each(|u| *u = -*u);
         let mut image = [normal, x, y];

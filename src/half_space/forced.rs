@@ -74,7 +74,7 @@ impl FrictionHalfStep<'_> {
         for (part, missing) in slip.iter_mut().zip(missing) {
             part.iter_mut().for_each(|w| *w -= least * missing);
         }
-        let tangent = self.tangent(&Rubbed::new(state.force.clone(), slip));
+        let tangent = self.tangent(&state.force, &slip);
         let steps = [0, 1].map(|axis| {
             let mut unit = zero_pair(self.bound.len());
             unit[axis].fill(1.0);

@@ -12,7 +12,7 @@
 
 use super::operator::HalfSpace;
 use super::points::Points;
-use super::vectors::{Pair, add_pair, dot_pair, largest, norm_pair, sum, zero_pair};
+use super::vectors::{Pair, add_pair, dot_pair, largest, norm_pair, scaled, sum, zero_pair};
 
 /// Newton steps after which the half-step gives up.
 const MOST_STEPS: usize = 80;
@@ -82,13 +82,10 @@ impl FrictionHalfStep<'_> {
             if state.residual <= tolerance {
                 break;
             }
-            let tangent = self.tangent(&state);
+            let tangent = self.tangent(&state.force, &state.slip);
             let wanted =
                 (0.3 * tolerance / state.residual).clamp(INNER_TOLERANCE[0], INNER_TOLERANCE[1]);
-            let right = state
-                .slip
-                .each_ref()
-                .map(|part| part.iter().map(|w| -w).collect());
+            let right = state.slip.each_ref().map(|w| scaled(w, -1.0));
             let (step, product) = self.newton(&tangent, right, wanted);
             let next = self.search(&state, &tangent, &step, &product);
             match next.or_else(|| self.projected_gradient(&state)) {
@@ -130,11 +127,12 @@ impl FrictionHalfStep<'_> {
         }
     }
 
-    pub(super) fn tangent(&self, state: &Rubbed) -> Tangent {
+    /// The tangent space at such forces and slips.
+    pub(super) fn tangent(&self, force: &Pair, slip: &Pair) -> Tangent {
         let mut tangent = Tangent::new(self.bound.len());
         let own = self.operator.diagonal()[1];
         for (at, &bound) in self.bound.iter().enumerate() {
-            let ([q_x, q_y], [w_x, w_y]) = (pick(&state.force, at), pick(&state.slip, at));
+            let ([q_x, q_y], [w_x, w_y]) = (pick(force, at), pick(slip, at));
             let length = q_x.hypot(q_y);
             let multiplier = -(w_x * q_x + w_y * q_y) / length;
             if length >= bound * (1.0 - ON_EDGE) && multiplier >= 0.0 {
@@ -175,7 +173,8 @@ impl FrictionHalfStep<'_> {
                 break;
             }
             let length = match flat {
-                true => self.beyond() / (size / contacts as f64).sqrt(),
+                // Out of every disc.
+                true => 4.0 * largest(self.bound) / (size / contacts as f64).sqrt(),
                 false => now / curvature,
             };
             add_pair(&mut step, length, &direction);
@@ -186,11 +185,6 @@ impl FrictionHalfStep<'_> {
             }
         }
         (step, product)
-    }
-
-    /// A length that leaves every disc.
-    fn beyond(&self) -> f64 {
-        4.0 * largest(self.bound)
     }
 
     /// The longest of some shares of a Newton step, drawn back, that lowers energy or residual.
@@ -250,18 +244,6 @@ impl FrictionHalfStep<'_> {
         let next = self.measure(force, product);
         let better = next.energy < state.energy || next.residual < state.residual;
         better.then_some(next)
-    }
-}
-
-impl Rubbed {
-    /// A state of which only forces and slip are known.
-    pub(super) fn new(force: Pair, slip: Pair) -> Self {
-        Self {
-            force,
-            slip,
-            residual: f64::INFINITY,
-            energy: 0.0,
-        }
     }
 }
 

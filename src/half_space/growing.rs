@@ -76,14 +76,14 @@ impl HalfSpaceProblem {
 impl Coupled {
     /// The state where friction is `factor` times as strong: what slips grows with its disc.
     fn grown(&self, problem: &HalfSpaceProblem, factor: f64) -> Self {
-        let mut force = self.force.clone();
-        let [p, x, y] = &mut force;
+        let mut held = self.held.clone();
+        let [p, x, y] = &mut held.force;
         for at in 0..p.len() {
             let edge = problem.friction[at] * p[at].max(0.0) / factor;
             if x[at].hypot(y[at]) >= edge * (1.0 - ON_EDGE) {
                 (x[at], y[at]) = (x[at] * factor, y[at] * factor);
             }
         }
-        Self::new(problem, force, self.approach, self.shift)
+        Self::new(problem, held)
     }
 }

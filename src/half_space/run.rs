@@ -244,7 +244,7 @@ impl Progress {
     }
 
     fn take(&mut self, problem: &HalfSpaceProblem, state: &Coupled) {
-        self.iterate = Iterate::of(problem, state.force.clone(), state.approach, state.shift);
+        self.iterate = Iterate::of(problem, state.held.clone());
         self.residual = state.residual;
     }
 

@@ -1,6 +1,6 @@
 //! One sweep: a normal half-step and a friction half-step.
 
-use super::coupled::Coupled;
+use super::coupled::{Coupled, Held};
 use super::friction::FrictionHalfStep;
 use super::normal::{NormalHalfStep, Pressed};
 use super::outcome::HalfSpaceState;
@@ -15,27 +15,21 @@ const ON_EDGE: f64 = 1e-9;
 /// Where the outer loop stands.
 #[derive(Clone, Debug)]
 pub(super) struct Iterate {
-    /// p, and q along x and y, in N per cell.
-    force: [Vec<f64>; 3],
+    held: Held,
     /// `G_NT q` per cell, in metre.
     raised: Vec<f64>,
-    approach: f64,
-    shift: [f64; 2],
 }
 
 impl Iterate {
     /// Nothing pressed.
     pub(super) fn new(problem: &HalfSpaceProblem) -> Self {
         let none = vec![0.0; problem.friction.len()];
-        Self {
+        let held = Held {
             force: [none.clone(), none.clone(), none.clone()],
-            raised: none,
             approach: 0.0,
-            shift: match problem.drag {
-                Drag::Shift(shift) => shift,
-                Drag::Force(_) => [0.0; 2],
-            },
-        }
+            shift: problem.shift_or([0.0; 2]),
+        };
+        Self { held, raised: none }
     }
 
     /// The forces of a coarser grid, spread over the cells of a finer one.
@@ -45,10 +39,13 @@ impl Iterate {
         let spread = |field: &[f64], share: f64| -> Vec<f64> {
             within.iter().map(|&cell| share * field[cell]).collect()
         };
+        let force = self.held.force.each_ref();
         Self {
-            force: [0, 1, 2].map(|component| spread(&self.force[component], share)),
+            held: Held {
+                force: force.map(|part| spread(part, share)),
+                ..self.held
+            },
             raised: spread(&self.raised, 1.0),
-            ..*self
         }
     }
 
@@ -56,51 +53,53 @@ impl Iterate {
     pub(super) fn near(problem: &HalfSpaceProblem, near: &HalfSpaceState) -> Self {
         let [normal, x, y] = near.reaction.clone();
         let pressing = normal.iter().map(|t_n| (-t_n).max(0.0)).collect();
-        let shift = match problem.drag {
-            Drag::Shift(shift) => shift,
-            Drag::Force(_) => near.shift,
+        let held = Held {
+            force: [pressing, x, y],
+            approach: near.approach,
+            shift: problem.shift_or(near.shift),
         };
-        Self::of(problem, [pressing, x, y], near.approach, shift)
+        Self::of(problem, held)
     }
 
     /// The iterate of such forces; without a disc there is no friction.
-    pub(super) fn of(
-        problem: &HalfSpaceProblem,
-        [pressing, x, y]: [Vec<f64>; 3],
-        approach: f64,
-        shift: [f64; 2],
-    ) -> Self {
-        let (operator, cells) = (&problem.operator, pressing.len());
-        let contact = problem.discs(&pressing);
-        let rubbing = [contact.gather(&x), contact.gather(&y)];
+    pub(super) fn of(problem: &HalfSpaceProblem, mut held: Held) -> Self {
+        let (operator, cells) = (&problem.operator, problem.friction.len());
+        let [pressing, x, y] = &held.force;
+        let contact = problem.discs(pressing);
+        let rubbing = [contact.gather(x), contact.gather(y)];
         let raised = operator.normal_of_tangential(&rubbing, &contact, operator.whole());
-        let [x, y] = rubbing.map(|part| contact.scatter(&part, cells));
-        Self {
-            force: [pressing, x, y],
-            raised,
-            approach,
-            shift,
+        for (field, part) in held.force[1..].iter_mut().zip(&rubbing) {
+            *field = contact.scatter(part, cells);
         }
+        Self { held, raised }
     }
 
     /// The iterate as Newton's method takes it, with fresh products.
     pub(super) fn coupled(&self, problem: &HalfSpaceProblem) -> Coupled {
-        Coupled::new(problem, self.force.clone(), self.approach, self.shift)
+        Coupled::new(problem, self.held.clone())
     }
 
     /// As the user sees it.
     pub(super) fn state(&self) -> HalfSpaceState {
-        let [pressing, x, y] = self.force.clone();
+        let [pressing, x, y] = self.held.force.clone();
         HalfSpaceState {
             // Without negative zeros.
             reaction: [pressing.iter().map(|p| 0.0 - p).collect(), x, y],
-            approach: self.approach,
-            shift: self.shift,
+            approach: self.held.approach,
+            shift: self.held.shift,
         }
     }
 }
 
 impl HalfSpaceProblem {
+    /// The shift that is given, or another.
+    fn shift_or(&self, other: [f64; 2]) -> [f64; 2] {
+        match self.drag {
+            Drag::Shift(shift) => shift,
+            Drag::Force(_) => other,
+        }
+    }
+
     /// The same problem on a grid half as fine, if there is one.
     pub(super) fn coarser(&self) -> Result<Option<Self>, Error> {
         let Some(operator) = self.operator.coarser() else {
@@ -136,7 +135,7 @@ impl HalfSpaceProblem {
             constant: &constant,
             load,
         };
-        let mut pressed = half.solve(iterate.force[0].clone(), target);
+        let mut pressed = half.solve(iterate.held.force[0].clone(), target);
         let mut of_friction = 0.0;
         if self.has_friction() {
             let raised;
@@ -149,8 +148,8 @@ impl HalfSpaceProblem {
             }
             pressed = half.measure(pressed.force, gap, pressed.points);
         }
-        iterate.force[0] = pressed.force;
-        iterate.approach = given + pressed.approach;
+        iterate.held.force[0] = pressed.force;
+        iterate.held.approach = given + pressed.approach;
         pressed.residual.hypot(of_friction)
     }
 
@@ -159,7 +158,7 @@ impl HalfSpaceProblem {
         let (operator, cells) = (&self.operator, self.friction.len());
         let contact = self.discs(&pressed.force);
         if contact.is_empty() {
-            iterate.force[1..]
+            iterate.held.force[1..]
                 .iter_mut()
                 .for_each(|part| part.fill(0.0));
             return (0.0, vec![0.0; cells]);
@@ -169,7 +168,7 @@ impl HalfSpaceProblem {
         let mut constant = operator.tangential_of_normal(&pressing, &pressed.points, &contact);
         for axis in 0..2 {
             for (entry, &cell) in constant[axis].iter_mut().zip(contact.cells()) {
-                *entry = -*entry - self.reference[axis][cell] - iterate.shift[axis];
+                *entry = -*entry - self.reference[axis][cell] - iterate.held.shift[axis];
             }
         }
         let mut half = FrictionHalfStep {
@@ -183,12 +182,12 @@ impl HalfSpaceProblem {
             Drag::Shift(_) => half.solve(force, target),
             Drag::Force(wanted) => {
                 let (rubbed, moved) = half.solve_under(wanted, force, target);
-                iterate.shift = [0, 1].map(|axis| iterate.shift[axis] + moved[axis]);
+                iterate.held.shift = [0, 1].map(|axis| iterate.held.shift[axis] + moved[axis]);
                 rubbed
             }
         };
         let raised = operator.normal_of_tangential(&rubbed.force, &contact, operator.whole());
-        for (field, part) in iterate.force[1..].iter_mut().zip(&rubbed.force) {
+        for (field, part) in iterate.held.force[1..].iter_mut().zip(&rubbed.force) {
             *field = contact.scatter(part, cells);
         }
         (rubbed.residual, raised)
@@ -207,7 +206,7 @@ impl HalfSpaceProblem {
             let of = |&cell: &usize| self.friction[cell] * pressing[cell];
             contact.cells().iter().map(of).collect()
         };
-        let [pressed, x, y] = &iterate.force;
+        let [pressed, x, y] = &iterate.held.force;
         let (before, bound) = (radii(pressed), radii(pressing));
         let mut force = [contact.gather(x), contact.gather(y)];
         for at in 0..bound.len() {
@@ -226,8 +225,8 @@ impl HalfSpaceProblem {
         let Drag::Force([x, y]) = self.drag else {
             return [0.0; 2];
         };
-        let most = dot(&self.friction, &iterate.force[0]);
-        let missing = (x - total(&iterate.force[1])).hypot(y - total(&iterate.force[2]));
+        let most = dot(&self.friction, &iterate.held.force[0]);
+        let missing = (x - total(&iterate.held.force[1])).hypot(y - total(&iterate.held.force[2]));
         let wanted = x.hypot(y);
         match missing > 0.0 {
             true => [missing / most.max(wanted), (wanted - most) / wanted],
