@@ -17,14 +17,11 @@ use rustfft::num_complex::Complex;
 use super::operator::{HalfSpace, Surroundings};
 use super::outcome::{HalfSpaceCertificate, HalfSpaceState};
 use super::problem::{Drag, HalfSpaceProblem, Press};
+use super::rough::scattered;
 use crate::error::Error;
-use crate::random::Random;
 
 /// Cells or waves at which the operator is checked.
-const SAMPLES: usize = 8;
-
-/// Where they begin: any number with many bits.
-const SEED: u64 = 0x9E37_79B9_7F4A_7C15;
+const SAMPLES: u64 = 8;
 
 /// Relative distance from a disc's edge below which a contact slips.
 const ON_EDGE: f64 = 1e-8;
@@ -129,9 +126,8 @@ fn sums(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) ->
     };
     let size = most(elastic).max(operator.diagonal()[0] * most(force));
     let mut worst = 0.0_f64;
-    let mut random = Random(SEED);
-    for _ in 0..SAMPLES {
-        let at = (random.part() * cells as f64) as usize;
+    for sample in 0..SAMPLES {
+        let at = (scattered(sample) % cells as u64) as usize;
         let mut sum = [0.0; 3];
         for &of in &loaded {
             let Some(entries) = operator.influence(at, of) else {
@@ -152,10 +148,9 @@ fn sums(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) ->
 fn waves(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) -> f64 {
     let [columns, rows] = operator.grid().cells;
     let (unit, mut worst) = (Complex::<f64>::I, 0.0_f64);
-    let mut random = Random(SEED);
-    for _ in 0..SAMPLES {
-        let mut pick = |count: usize| (random.part() * (count / 2 + 1) as f64) as usize;
-        let wave = [pick(columns), pick(rows)];
+    for sample in 0..SAMPLES {
+        let pick = |seed: u64, count: usize| (scattered(seed) % (count as u64 / 2 + 1)) as usize;
+        let wave = [pick(2 * sample, columns), pick(2 * sample + 1, rows)];
         let of = |field: &Vec<f64>| amplitude(field, [columns, rows], wave);
         let ([n, x, y], found) = (force.each_ref().map(of), elastic.each_ref().map(of));
         let [nn, xx, yy, xy, xn, yn] = operator.symbol(wave);

@@ -113,17 +113,19 @@ impl SelfAffine {
         Ok(())
     }
 
-    /// φ of a wave, in radian (SplitMix64 of its numbers and the seed).
+    /// φ of a wave, in radian, from its numbers and the seed.
     fn phase(&self, column: i64, row: i64) -> f64 {
-        let mix = |state: u64| {
-            let mixed = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            mixed ^ (mixed >> 31)
-        };
-        let bits = mix(mix(mix(self.seed) ^ column as u64) ^ row as u64);
+        let bits = scattered(scattered(scattered(self.seed) ^ column as u64) ^ row as u64);
         2.0 * PI * (bits >> 11) as f64 / (1_u64 << 53) as f64
     }
+}
+
+/// A number without pattern for every number (SplitMix64).
+pub(super) fn scattered(number: u64) -> u64 {
+    let mixed = number.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    mixed ^ (mixed >> 31)
 }
 
 /// Sum of waves at every cell, in place.

@@ -166,9 +166,10 @@ impl HalfSpaceProblem {
         let (bound, force) = self.scaled(iterate, &contact, &pressed.force);
         let pressing = pressed.points.gather(&pressed.force);
         let mut constant = operator.tangential_of_normal(&pressing, &pressed.points, &contact);
-        for axis in 0..2 {
-            for (entry, &cell) in constant[axis].iter_mut().zip(contact.cells()) {
-                *entry = -*entry - self.reference[axis][cell] - iterate.held.shift[axis];
+        let given = self.reference.iter().zip(iterate.held.shift);
+        for (part, (reference, shift)) in constant.iter_mut().zip(given) {
+            for (entry, &cell) in part.iter_mut().zip(contact.cells()) {
+                *entry = -*entry - reference[cell] - shift;
             }
         }
         let mut half = FrictionHalfStep {
