@@ -44,12 +44,9 @@ fn neighbours(grid: &Grid, surroundings: Surroundings, cell: usize) -> [Option<u
         let inside = if forward { next < count } else { at > 0 };
         (inside || surroundings == Surroundings::Periodic).then_some(next % count)
     };
-    [
-        step(column, columns, false).map(|column| column + columns * row),
-        step(column, columns, true).map(|column| column + columns * row),
-        step(row, rows, false).map(|row| column + columns * row),
-        step(row, rows, true).map(|row| column + columns * row),
-    ]
+    let along = |forward: bool| Some(step(column, columns, forward)? + columns * row);
+    let across = |forward: bool| Some(column + columns * step(row, rows, forward)?);
+    [along(false), along(true), across(false), across(true)]
 }
 
 #[cfg(test)]

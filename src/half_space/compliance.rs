@@ -1,5 +1,6 @@
 //! What the materials of two half-spaces leave in the compliance of their surfaces.
 
+use super::range::check_range;
 use crate::error::{Error, check_finite};
 
 /// An isotropic elastic half-space.
@@ -18,20 +19,12 @@ impl ElasticHalf {
 
     fn check(&self, place: &str) -> Result<(), Error> {
         check_finite(place, &[self.young, self.poisson])?;
-        let refuse = |field: &str, value, accepted| {
-            Err(Error::OutOfRange {
-                place: format!("{place}.{field}"),
-                value,
-                accepted,
-            })
-        };
-        if !(1e-50..=1e50).contains(&self.young) {
-            return refuse("young", self.young, "young > 0, from 1e-50 to 1e50");
-        }
-        if !(0.0..=0.5).contains(&self.poisson) {
-            return refuse("poisson", self.poisson, "0 <= poisson <= 0.5");
-        }
-        Ok(())
+        let young = (1e-50..=1e50).contains(&self.young);
+        let accepted = "young > 0, from 1e-50 to 1e50";
+        check_range(format!("{place}.young"), self.young, young, accepted)?;
+        let poisson = (0.0..=0.5).contains(&self.poisson);
+        let accepted = "0 <= poisson <= 0.5";
+        check_range(format!("{place}.poisson"), self.poisson, poisson, accepted)
     }
 }
 

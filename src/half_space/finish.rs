@@ -16,11 +16,14 @@
 
 use std::collections::VecDeque;
 
-use super::coupled::Coupled;
+use nalgebra::{DMatrix, DVector};
+
+use super::coupled::{Coupled, Held};
+use super::friction::{Tangent, onto_disc, pick, put};
 use super::gmres::{Linear, gmres};
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, add, total};
+use super::vectors::{add, largest, scaled, total};
 
 /// Newton steps.
 const MOST_STEPS: usize = 20;
@@ -29,21 +32,13 @@ const MOST_STEPS: usize = 20;
 /// may raise it (Grippo, Lampariello, Lucidi, SIAM J. Numer. Anal. 23 (1986) 707–716).
 const MEMORY: usize = 4;
 
-/// Share of the diagonal's Λ in the preconditioner, as in the friction half-step.
-const CURVATURE: f64 = 0.7;
-
 /// The contacts of one linearisation, and their laws' tangents.
-struct Tangent<'a> {
+struct Linearised<'a> {
     problem: &'a HalfSpaceProblem,
     points: Points,
-    slips: Vec<bool>,
-    /// n on slipping contacts.
-    outward: Pair,
+    tangent: Tangent,
     /// μ.
     friction: Vec<f64>,
-    /// Λ, and D of the preconditioner.
-    curvature: Vec<f64>,
-    damping: Vec<f64>,
     /// Rows of the resultants: 0 normal, 1 and 2 along x and y; their columns after the preconditioner.
     resultants: Vec<usize>,
     bordered: Vec<Vec<f64>>,
@@ -57,10 +52,7 @@ impl HalfSpaceProblem {
             if best.residual <= tolerance {
                 break;
             }
-            let most = last
-                .iter()
-                .fold(0.0, |most: f64, residual| most.max(*residual));
-            let Some(next) = self.newton(&state, most, tolerance) else {
+            let Some(next) = self.newton(&state, largest(&last), tolerance) else {
                 break;
             };
             state = next;
@@ -77,37 +69,45 @@ impl HalfSpaceProblem {
 
     /// One step of (S13); nothing if it does not lower the residual by a tenth of `most`.
     fn newton(&self, state: &Coupled, most: f64, tolerance: f64) -> Option<Coupled> {
-        let tangent = Tangent::new(self, state);
-        if tangent.points.is_empty() {
+        let laws = Linearised::new(self, state);
+        if laws.points.is_empty() {
             return None;
         }
-        let placed = tangent.placed(state);
-        let right = tangent.right(&placed);
+        let placed = laws.placed(state);
+        let right = laws.right(&placed);
         let relative = tolerance / state.residual;
-        let wanted = if state.residual > 1e-3 {
-            (0.03 * relative).max(1e-3)
-        } else {
-            (0.1 * relative).max(1e-7)
+        let (part, least) = match state.residual > 1e-3 {
+            true => (0.03, 1e-3),
+            false => (0.1, 1e-7),
         };
-        let step = gmres(&tangent, &right, wanted)?;
-        let mut share = 1.0;
-        for _ in 0..4 {
-            let next = tangent.moved(&placed, &step, share);
-            if next.residual < 0.9 * most {
-                return Some(next);
-            }
-            share *= 0.5;
-        }
-        None
+        let step = gmres(&laws, &right, f64::max(part * relative, least))?;
+        let mut shares = [1.0, 0.5, 0.25, 0.125].into_iter();
+        shares.find_map(|share| {
+            let next = laws.moved(&placed, &step, share);
+            (next.residual < 0.9 * most).then_some(next)
+        })
     }
 }
 
-impl<'a> Tangent<'a> {
+impl<'a> Linearised<'a> {
     fn new(problem: &'a HalfSpaceProblem, state: &Coupled) -> Self {
         let [of_normal, of_tangent, _] = problem.operator.diagonal();
-        let pressed = |cell: usize| state.force[0][cell] - state.gap[cell] / of_normal > 0.0;
+        let pressed = |cell: usize| state.held.force[0][cell] - state.gap[cell] / of_normal > 0.0;
         let points = Points::select(problem.operator.grid(), pressed);
-        let contacts = points.len();
+        let friction = points.gather(&problem.friction);
+        let mut tangent = Tangent::new(points.len());
+        for (at, &cell) in points.cells().iter().enumerate() {
+            let trial = state.trial(cell, of_tangent);
+            let length = trial[0].hypot(trial[1]);
+            let bound = friction[at] * state.held.force[0][cell].max(0.0);
+            if length > 0.0 && bound > 0.0 && length > bound {
+                let curvature = of_tangent * (length - bound) / bound;
+                let outward = trial.map(|part| part / length);
+                tangent.slip(at, outward, curvature, of_tangent);
+            } else if length > bound || friction[at] <= 0.0 {
+                tangent.slip(at, [0.0; 2], 0.0, of_tangent);
+            }
+        }
         let mut resultants = Vec::new();
         if matches!(problem.press, Press::Load(_)) {
             resultants.push(0);
@@ -115,237 +115,159 @@ impl<'a> Tangent<'a> {
         if matches!(problem.drag, Drag::Force(_)) && problem.has_friction() {
             resultants.extend([1, 2]);
         }
-        let mut tangent = Self {
+        let mut laws = Self {
             problem,
-            friction: points.gather(&problem.friction),
             points,
-            slips: vec![false; contacts],
-            outward: [vec![0.0; contacts], vec![0.0; contacts]],
-            curvature: vec![0.0; contacts],
-            damping: vec![1.0; contacts],
+            tangent,
+            friction,
             resultants,
             bordered: Vec::new(),
         };
-        for at in 0..contacts {
-            let cell = tangent.points.cells()[at];
-            let trial = state.trial(cell, of_tangent);
-            let length = trial[0].hypot(trial[1]);
-            let bound = tangent.friction[at] * state.force[0][cell].max(0.0);
-            if length <= bound && tangent.friction[at] > 0.0 {
-                continue;
-            }
-            tangent.slips[at] = true;
-            if length > 0.0 && bound > 0.0 {
-                (tangent.outward[0][at], tangent.outward[1][at]) =
-                    (trial[0] / length, trial[1] / length);
-                let ratio = (length - bound) / bound;
-                tangent.curvature[at] = of_tangent * ratio;
-                tangent.damping[at] = (1.0 + CURVATURE * ratio).sqrt().recip();
-            }
-        }
-        let columns = tangent.resultants.iter().map(|&row| {
-            let mut column = vec![0.0; 3 * contacts];
-            column[row * contacts..(row + 1) * contacts].fill(-1.0);
-            tangent.project(&mut column);
-            tangent.inverse(&column)
+        let columns = laws.resultants.iter().map(|&row| {
+            let mut column = [0, 1, 2].map(|_| vec![0.0; laws.points.len()]);
+            column[row].fill(-1.0);
+            laws.inverse(&laws.projected(column))
         });
-        tangent.bordered = columns.collect();
-        tangent
+        laws.bordered = columns.collect();
+        laws
     }
 
-    fn contacts(&self) -> usize {
-        self.points.len()
+    /// Normal, x and y of a vector of unknowns or of their equations.
+    fn parts<'v>(&self, vector: &'v [f64]) -> [&'v [f64]; 3] {
+        let contacts = self.points.len();
+        [0, 1, 2].map(|component| &vector[component * contacts..(component + 1) * contacts])
+    }
+
+    /// One vector of three parts: along τ of slipping contacts, all of sticking ones.
+    fn projected(&self, [normal, mut x, mut y]: [Vec<f64>; 3]) -> Vec<f64> {
+        self.tangent.project([&mut x, &mut y]);
+        [normal, x, y].concat()
     }
 
     /// Forces where the linearised laws want them: none where open, slipping ones on their circle.
     fn placed(&self, state: &Coupled) -> Coupled {
-        let cells = state.gap.len();
-        let [p, mut x, mut y] = [0, 1, 2].map(|c| self.points.gather(&state.force[c]));
-        for at in (0..self.contacts()).filter(|&at| self.slips[at]) {
-            let [n_x, n_y] = [self.outward[0][at], self.outward[1][at]];
-            let along = n_x * y[at] - n_y * x[at];
-            let bound = self.friction[at] * p[at];
-            (x[at], y[at]) = (bound * n_x - along * n_y, bound * n_y + along * n_x);
+        let [p, x, y] = [0, 1, 2].map(|c| self.points.gather(&state.held.force[c]));
+        let placed = self.forces(&self.projected([p, x, y]));
+        self.coupled(state, placed, 0.0, &[])
+    }
+
+    /// A state of such forces on the contacts, moved by a share of a step's approach and shift.
+    fn coupled(&self, from: &Coupled, force: [Vec<f64>; 3], share: f64, step: &[f64]) -> Coupled {
+        let mut held = Held {
+            force: force.map(|part| self.points.scatter(&part, from.gap.len())),
+            approach: from.held.approach,
+            shift: from.held.shift,
+        };
+        for (&row, scalar) in self.resultants.iter().zip(step) {
+            match row {
+                0 => held.approach += share * scalar,
+                _ => held.shift[row - 1] += share * scalar,
+            }
         }
-        let force = [p, x, y].map(|part| self.points.scatter(&part, cells));
-        Coupled::new(self.problem, force, state.approach, state.shift)
+        Coupled::new(self.problem, held)
     }
 
     /// Right side of (S13): normal, x, y of the contacts, then the resultants.
     fn right(&self, placed: &Coupled) -> Vec<f64> {
-        let gather = |field: &[f64]| self.points.gather(field);
-        let [p, q_x, q_y] = [0, 1, 2].map(|c| gather(&placed.force[c]));
-        let mut right = gather(&placed.gap);
-        for (slip, force) in placed.slip.iter().zip([&q_x, &q_y]) {
-            let parts = gather(slip).into_iter().zip(force).zip(&self.curvature);
-            right.extend(parts.map(|((slip, force), curvature)| slip + curvature * force));
-        }
+        let [q_x, q_y] = [1, 2].map(|axis| self.points.gather(&placed.held.force[axis]));
+        let mut laws =
+            [&placed.gap, &placed.slip[0], &placed.slip[1]].map(|w| self.points.gather(w));
+        let [_, x, y] = &mut laws;
+        self.tangent.bend([x, y], [&q_x, &q_y]);
         // Frictionless contacts have no equation along the tangents.
-        self.project(&mut right);
+        let mut right = self.projected(laws);
         right.iter_mut().for_each(|entry| *entry = -*entry);
-        debug_assert_eq!(p.len(), self.contacts());
         let missing = placed.missing(self.problem);
         right.extend(self.resultants.iter().map(|&row| missing[row]));
         right
     }
 
-    /// What is along τ of slipping contacts; sticking ones keep all.
-    fn project(&self, vector: &mut [f64]) {
-        let contacts = self.contacts();
-        let (_, tangential) = vector.split_at_mut(contacts);
-        let (x, y) = tangential.split_at_mut(contacts);
-        for at in (0..contacts).filter(|&at| self.slips[at]) {
-            let [n_x, n_y] = [self.outward[0][at], self.outward[1][at]];
-            let along = n_x * y[at] - n_y * x[at];
-            (x[at], y[at]) = (-along * n_y, along * n_x);
-        }
-    }
-
     /// dp and dq of unknowns.
     fn forces(&self, unknown: &[f64]) -> [Vec<f64>; 3] {
-        let contacts = self.contacts();
-        let p = unknown[..contacts].to_vec();
-        let [x, y] = [0, 1].map(|axis| {
-            let start = (axis + 1) * contacts;
-            let of = |at: usize| {
-                unknown[start + at] + self.friction[at] * self.outward[axis][at] * p[at]
-            };
-            (0..contacts).map(of).collect()
-        });
-        [p, x, y]
+        let [p, x, y] = self.parts(unknown);
+        let along = |own: &[f64], outward: &[f64]| {
+            let of = |at: usize| own[at] + self.friction[at] * outward[at] * p[at];
+            (0..p.len()).map(of).collect()
+        };
+        let [n_x, n_y] = &self.tangent.outward;
+        [p.to_vec(), along(x, n_x), along(y, n_y)]
     }
 
     fn inverse(&self, right: &[f64]) -> Vec<f64> {
-        let (contacts, operator) = (self.contacts(), &self.problem.operator);
-        let mut result = operator.inverse_normal(&right[..contacts], &self.points);
-        let damped = |axis: usize| -> Vec<f64> {
-            let part = &right[(axis + 1) * contacts..(axis + 2) * contacts];
-            part.iter()
-                .zip(&self.damping)
-                .map(|(entry, damping)| entry * damping)
-                .collect()
-        };
-        let pair = operator.inverse_tangential(&[damped(0), damped(1)], &self.points);
-        for part in pair {
-            result.extend(
-                part.iter()
-                    .zip(&self.damping)
-                    .map(|(entry, damping)| entry * damping),
-            );
-        }
-        self.project(&mut result);
+        let (operator, [normal, x, y]) = (&self.problem.operator, self.parts(right));
+        let mut result = operator.inverse_normal(normal, &self.points);
+        let tangential = [x.to_vec(), y.to_vec()];
+        let pair = self.tangent.inverse(operator, &tangential, &self.points);
+        result.extend(pair.concat());
         result
     }
 
     /// Sums of the forces of unknowns that resultants are given for.
-    fn sums(&self, unknown: &[f64]) -> Vec<f64> {
+    fn sums(&self, unknown: &[f64]) -> DVector<f64> {
         let forces = self.forces(unknown);
-        self.resultants
-            .iter()
-            .map(|&row| total(&forces[row]))
-            .collect()
+        let sums = self.resultants.iter().map(|&row| total(&forces[row]));
+        DVector::from_iterator(self.resultants.len(), sums)
     }
 
     /// The state after a share of a step, drawn back to `p ≥ 0` and the discs.
     fn moved(&self, placed: &Coupled, step: &[f64], share: f64) -> Coupled {
-        let (contacts, cells) = (self.contacts(), placed.gap.len());
-        let change = self.forces(&step[..3 * contacts]);
-        let [mut p, mut x, mut y] = [0, 1, 2].map(|c| {
-            let mut part = self.points.gather(&placed.force[c]);
+        let change = self.forces(step);
+        let [mut p, x, y] = [0, 1, 2].map(|c| {
+            let mut part = self.points.gather(&placed.held.force[c]);
             add(&mut part, share, &change[c]);
             part
         });
-        for at in 0..contacts {
-            p[at] = p[at].max(0.0);
-            let (length, bound) = (x[at].hypot(y[at]), self.friction[at] * p[at]);
-            if length > bound {
-                (x[at], y[at]) = (x[at] * bound / length, y[at] * bound / length);
-            }
+        let mut pair = [x, y];
+        for (at, p) in p.iter_mut().enumerate() {
+            *p = p.max(0.0);
+            let drawn = onto_disc(pick(&pair, at), self.friction[at] * *p);
+            put(&mut pair, at, drawn);
         }
-        let (mut approach, mut shift) = (placed.approach, placed.shift);
-        for (&row, scalar) in self.resultants.iter().zip(&step[3 * contacts..]) {
-            match row {
-                0 => approach += share * scalar,
-                _ => shift[row - 1] += share * scalar,
-            }
-        }
-        let force = [p, x, y].map(|part| self.points.scatter(&part, cells));
-        Coupled::new(self.problem, force, approach, shift)
+        let [x, y] = pair;
+        self.coupled(placed, [p, x, y], share, &step[3 * self.points.len()..])
     }
 }
 
-impl Linear for Tangent<'_> {
+impl Linear for Linearised<'_> {
     fn apply(&self, unknown: &[f64]) -> Vec<f64> {
-        let contacts = self.contacts();
-        let [p, x, y] = self.forces(&unknown[..3 * contacts]);
-        let lifted: Vec<f64> = p.iter().map(|p| -p).collect();
-        let [u_n, u_x, u_y] =
-            self.problem
-                .operator
-                .full([&lifted, &x, &y], &self.points, &self.points);
-        let mut image: Vec<f64> = u_n.iter().map(|u| -u).collect();
-        for (axis, u) in [u_x, u_y].iter().enumerate() {
-            let own = &unknown[(axis + 1) * contacts..(axis + 2) * contacts];
-            let parts = u.iter().zip(own).zip(&self.curvature);
-            image.extend(parts.map(|((u, own), curvature)| u + curvature * own));
+        let (operator, points) = (&self.problem.operator, &self.points);
+        let [p, x, y] = self.forces(unknown);
+        let lifted = scaled(&p, -1.0);
+        let [mut normal, x, y] = operator.full([&lifted, &x, &y], points, points);
+        normal.iter_mut().for_each(|u| *u = -*u);
+        let mut image = [normal, x, y];
+        let [_, x, y] = &mut image;
+        let [_, of_x, of_y] = self.parts(unknown);
+        self.tangent.bend([x, y], [of_x, of_y]);
+        for (&row, scalar) in self.resultants.iter().zip(&unknown[3 * points.len()..]) {
+            image[row].iter_mut().for_each(|entry| *entry -= scalar);
         }
-        for (&row, scalar) in self.resultants.iter().zip(&unknown[3 * contacts..]) {
-            let part = &mut image[row * contacts..(row + 1) * contacts];
-            part.iter_mut().for_each(|entry| *entry -= scalar);
-        }
-        self.project(&mut image);
-        image.extend(self.sums(&unknown[..3 * contacts]));
+        let mut image = self.projected(image);
+        image.extend(&self.sums(unknown));
         image
     }
 
     /// `x = M r − (M B) s`, `s = (C M B)⁻¹ (C M r − ρ)`.
     fn precondition(&self, right: &[f64]) -> Vec<f64> {
-        let contacts = self.contacts();
-        let mut result = self.inverse(&right[..3 * contacts]);
-        let count = self.resultants.len();
-        let mut rest = self.sums(&result);
-        for (rest, given) in rest.iter_mut().zip(&right[3 * contacts..]) {
-            *rest -= given;
+        let mut result = self.inverse(right);
+        if self.resultants.is_empty() {
+            return result;
         }
-        let columns: Vec<Vec<f64>> = self
+        let given = DVector::from_column_slice(&right[3 * self.points.len()..]);
+        let rest = self.sums(&result) - given;
+        let columns: Vec<_> = self
             .bordered
             .iter()
             .map(|column| self.sums(column))
             .collect();
-        let scalars = eliminate(columns, rest);
+        let border = DMatrix::from_columns(&columns).svd(true, true);
+        // What no force answers to, such as the approach of a full periodic surface, is left as it is.
+        let none = f64::EPSILON * border.singular_values.max();
+        let scalars = border.solve(&rest, none).unwrap_or(rest);
         for (column, scalar) in self.bordered.iter().zip(&scalars) {
             add(&mut result, -scalar, column);
         }
-        debug_assert_eq!(scalars.len(), count);
-        result.extend(scalars);
+        result.extend(&scalars);
         result
     }
-}
-
-/// Solves for up to three unknowns, by elimination with the largest pivots; unknowns without one are zero.
-fn eliminate(mut columns: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
-    let count = right.len();
-    let mut pivots = vec![None; count];
-    let mut free: Vec<usize> = (0..count).collect();
-    for column in 0..count {
-        let best = free.iter().copied().max_by(|&a, &b| {
-            columns[column][a]
-                .abs()
-                .total_cmp(&columns[column][b].abs())
-        });
-        let Some(row) = best.filter(|&row| columns[column][row] != 0.0) else {
-            continue;
-        };
-        free.retain(|&other| other != row);
-        pivots[column] = Some(row);
-        for other in (0..count).filter(|&other| other != row) {
-            let factor = columns[column][other] / columns[column][row];
-            for entries in &mut columns {
-                entries[other] -= factor * entries[row];
-            }
-            right[other] -= factor * right[row];
-        }
-    }
-    let value = |column: usize| pivots[column].map_or(0.0, |row| right[row] / columns[column][row]);
-    (0..count).map(value).collect()
 }

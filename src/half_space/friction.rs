@@ -12,7 +12,7 @@
 
 use super::operator::HalfSpace;
 use super::points::Points;
-use super::vectors::{Pair, add_pair, dot_pair, norm_pair, sum, zero_pair};
+use super::vectors::{Pair, add_pair, dot_pair, largest, norm_pair, scaled, sum, zero_pair};
 
 /// Newton steps after which the half-step gives up.
 const MOST_STEPS: usize = 80;
@@ -45,7 +45,7 @@ pub(super) struct FrictionHalfStep<'a> {
     /// R > 0, in N.
     pub(super) bound: &'a [f64],
     /// c: slip without tangential forces, in metre.
-    pub(super) constant: &'a Pair,
+    pub(super) constant: Pair,
     /// Length that residuals are relative to, in N.
     pub(super) scale: f64,
 }
@@ -64,11 +64,11 @@ pub(super) struct Rubbed {
 
 /// The tangent space of the discs at a state.
 pub(super) struct Tangent {
-    /// Unit tangents of slipping contacts, zero elsewhere.
-    along: Pair,
-    sticks: Vec<bool>,
+    pub(super) slips: Vec<bool>,
+    /// n: out of the discs of slipping contacts, zero where there is none.
+    pub(super) outward: Pair,
     /// Λ.
-    curvature: Vec<f64>,
+    pub(super) curvature: Vec<f64>,
     damping: Vec<f64>,
 }
 
@@ -82,14 +82,10 @@ impl FrictionHalfStep<'_> {
             if state.residual <= tolerance {
                 break;
             }
-            let tangent = self.tangent(&state);
+            let tangent = self.tangent(&state.force, &state.slip);
             let wanted =
                 (0.3 * tolerance / state.residual).clamp(INNER_TOLERANCE[0], INNER_TOLERANCE[1]);
-            let mut right = state.slip.clone();
-            right
-                .iter_mut()
-                .flatten()
-                .for_each(|entry| *entry = -*entry);
+            let right = state.slip.each_ref().map(|w| scaled(w, -1.0));
             let (step, product) = self.newton(&tangent, right, wanted);
             let next = self.search(&state, &tangent, &step, &product);
             match next.or_else(|| self.projected_gradient(&state)) {
@@ -107,21 +103,15 @@ impl FrictionHalfStep<'_> {
     /// The state of forces whose `G_TT q` is `product`.
     pub(super) fn measure(&self, force: Pair, product: Pair) -> Rubbed {
         let mut slip = product;
-        add_pair(&mut slip, 1.0, self.constant);
+        add_pair(&mut slip, 1.0, &self.constant);
         let step = 1.0 / self.operator.diagonal()[1];
         let defect = sum(self.bound.len(), |at| {
             let (q, w) = (pick(&force, at), pick(&slip, at));
             let trial = [q[0] - step * w[0], q[1] - step * w[1]];
-            let length = trial[0].hypot(trial[1]);
-            let factor = if length > self.bound[at] {
-                self.bound[at] / length
-            } else {
-                1.0
-            };
-            let defect = [q[0] - factor * trial[0], q[1] - factor * trial[1]];
-            defect[0] * defect[0] + defect[1] * defect[1]
+            let admissible = onto_disc(trial, self.bound[at]);
+            (q[0] - admissible[0]).powi(2) + (q[1] - admissible[1]).powi(2)
         });
-        let energy = 0.5 * (dot_pair(&force, &slip) + dot_pair(&force, self.constant));
+        let energy = 0.5 * (dot_pair(&force, &slip) + dot_pair(&force, &self.constant));
         Rubbed {
             force,
             slip,
@@ -132,39 +122,22 @@ impl FrictionHalfStep<'_> {
 
     /// Contacts beyond their disc go to its edge.
     fn draw_back(&self, force: &mut Pair) {
-        let [x, y] = force;
-        for ((x, y), bound) in x.iter_mut().zip(y).zip(self.bound) {
-            let length = x.hypot(*y);
-            if length > *bound {
-                (*x, *y) = (*x * bound / length, *y * bound / length);
-            }
+        for (at, bound) in self.bound.iter().enumerate() {
+            put(force, at, onto_disc(pick(force, at), *bound));
         }
     }
 
-    pub(super) fn tangent(&self, state: &Rubbed) -> Tangent {
-        let contacts = self.bound.len();
-        let mut tangent = Tangent {
-            along: zero_pair(contacts),
-            sticks: vec![true; contacts],
-            curvature: vec![0.0; contacts],
-            damping: vec![1.0; contacts],
-        };
-        let step = 1.0 / self.operator.diagonal()[1];
-        for at in 0..contacts {
-            let ([q_x, q_y], [w_x, w_y]) = (pick(&state.force, at), pick(&state.slip, at));
-            let (length, bound) = (q_x.hypot(q_y), self.bound[at]);
-            if length < bound * (1.0 - ON_EDGE) {
-                continue;
+    /// The tangent space at such forces and slips.
+    pub(super) fn tangent(&self, force: &Pair, slip: &Pair) -> Tangent {
+        let mut tangent = Tangent::new(self.bound.len());
+        let own = self.operator.diagonal()[1];
+        for (at, &bound) in self.bound.iter().enumerate() {
+            let ([q_x, q_y], [w_x, w_y]) = (pick(force, at), pick(slip, at));
+            let length = q_x.hypot(q_y);
+            let multiplier = -(w_x * q_x + w_y * q_y) / length;
+            if length >= bound * (1.0 - ON_EDGE) && multiplier >= 0.0 {
+                tangent.slip(at, [q_x / length, q_y / length], multiplier / bound, own);
             }
-            let [n_x, n_y] = [q_x / length, q_y / length];
-            let multiplier = -(w_x * n_x + w_y * n_y);
-            if multiplier < 0.0 {
-                continue;
-            }
-            tangent.sticks[at] = false;
-            (tangent.along[0][at], tangent.along[1][at]) = (-n_y, n_x);
-            tangent.curvature[at] = multiplier / bound;
-            tangent.damping[at] = (1.0 + CURVATURE * step * multiplier / bound).sqrt().recip();
         }
         tangent
     }
@@ -174,14 +147,14 @@ impl FrictionHalfStep<'_> {
         let contacts = self.bound.len();
         let (mut step, mut product) = (zero_pair(contacts), zero_pair(contacts));
         let mut residual = right;
-        tangent.project(&mut residual);
+        tangent.project_pair(&mut residual);
         let enough = tolerance * norm_pair(&residual);
         let (mut direction, mut last) = (zero_pair(contacts), 0.0);
         for _ in 0..MOST_INNER {
             if norm_pair(&residual) <= enough {
                 break;
             }
-            let pushed = self.precondition(tangent, &residual);
+            let pushed = tangent.inverse(self.operator, &residual, self.points);
             let now = dot_pair(&residual, &pushed);
             let turn = if last > 0.0 { now / last } else { 0.0 };
             last = now;
@@ -190,7 +163,9 @@ impl FrictionHalfStep<'_> {
             }
             let of_direction = self.product(&direction);
             let mut image = of_direction.clone();
-            tangent.bend(&mut image, &direction);
+            let [x, y] = &direction;
+            tangent.bend(image.each_mut(), [x, y]);
+            tangent.project_pair(&mut image);
             let curvature = dot_pair(&direction, &image);
             let size = dot_pair(&direction, &direction);
             let flat = curvature <= FLAT * self.operator.diagonal()[1] * size;
@@ -198,7 +173,8 @@ impl FrictionHalfStep<'_> {
                 break;
             }
             let length = match flat {
-                true => self.beyond() / (size / contacts as f64).sqrt(),
+                // Out of every disc.
+                true => 4.0 * largest(self.bound) / (size / contacts as f64).sqrt(),
                 false => now / curvature,
             };
             add_pair(&mut step, length, &direction);
@@ -211,23 +187,6 @@ impl FrictionHalfStep<'_> {
         (step, product)
     }
 
-    /// A length that leaves every disc.
-    fn beyond(&self) -> f64 {
-        4.0 * self
-            .bound
-            .iter()
-            .fold(0.0_f64, |most, bound| most.max(*bound))
-    }
-
-    fn precondition(&self, tangent: &Tangent, residual: &Pair) -> Pair {
-        let mut pushed = residual.clone();
-        tangent.damp(&mut pushed);
-        pushed = self.operator.inverse_tangential(&pushed, self.points);
-        tangent.damp(&mut pushed);
-        tangent.project(&mut pushed);
-        pushed
-    }
-
     /// The longest of some shares of a Newton step, drawn back, that lowers energy or residual.
     fn search(
         &self,
@@ -237,7 +196,7 @@ impl FrictionHalfStep<'_> {
         product: &Pair,
     ) -> Option<Rubbed> {
         let mut before = state.slip.clone();
-        add_pair(&mut before, -1.0, self.constant);
+        add_pair(&mut before, -1.0, &self.constant);
         let mut share = 1.0;
         for _ in 0..5 {
             let (mut force, mut image) = (state.force.clone(), before.clone());
@@ -263,11 +222,15 @@ impl FrictionHalfStep<'_> {
         for at in 0..self.bound.len() {
             let [x, y] = pick(force, at);
             let length = x.hypot(y);
-            let slips = !tangent.sticks[at] && length > 0.0;
+            let slips = tangent.slips[at] && length > 0.0;
             if slips || length > self.bound[at] {
                 let factor = self.bound[at] / length;
-                (force[0][at], force[1][at]) = (x * factor, y * factor);
-                (correction[0][at], correction[1][at]) = (x * (factor - 1.0), y * (factor - 1.0));
+                put(force, at, [x * factor, y * factor]);
+                put(
+                    &mut correction,
+                    at,
+                    [x * (factor - 1.0), y * (factor - 1.0)],
+                );
             }
         }
         correction
@@ -284,50 +247,72 @@ impl FrictionHalfStep<'_> {
     }
 }
 
-impl Rubbed {
-    /// A state of which only forces and slip are known.
-    pub(super) fn new(force: Pair, slip: Pair) -> Self {
+impl Tangent {
+    /// All stick.
+    pub(super) fn new(contacts: usize) -> Self {
         Self {
-            force,
-            slip,
-            residual: f64::INFINITY,
-            energy: 0.0,
+            slips: vec![false; contacts],
+            outward: zero_pair(contacts),
+            curvature: vec![0.0; contacts],
+            damping: vec![1.0; contacts],
+        }
+    }
+
+    /// A contact slips, with Λ and the compliance of its own force.
+    pub(super) fn slip(&mut self, at: usize, outward: [f64; 2], curvature: f64, own: f64) {
+        self.slips[at] = true;
+        put(&mut self.outward, at, outward);
+        self.curvature[at] = curvature;
+        self.damping[at] = (1.0 + CURVATURE * curvature / own).sqrt().recip();
+    }
+
+    /// E: all of sticking contacts, what is along the circle of slipping ones.
+    pub(super) fn project(&self, [x, y]: [&mut [f64]; 2]) {
+        for at in (0..x.len()).filter(|&at| self.slips[at]) {
+            let [n_x, n_y] = pick(&self.outward, at);
+            let along = n_x * y[at] - n_y * x[at];
+            (x[at], y[at]) = (-along * n_y, along * n_x);
+        }
+    }
+
+    /// E D S⁻¹ D E.
+    pub(super) fn inverse(&self, operator: &HalfSpace, right: &Pair, points: &Points) -> Pair {
+        let damped = |part: &Vec<f64>| {
+            let pairs = part.iter().zip(&self.damping);
+            pairs.map(|(entry, damping)| entry * damping).collect()
+        };
+        let pair = operator.inverse_tangential(&right.each_ref().map(damped), points);
+        let mut pair = pair.each_ref().map(damped);
+        self.project_pair(&mut pair);
+        pair
+    }
+
+    pub(super) fn project_pair(&self, [x, y]: &mut Pair) {
+        self.project([x, y]);
+    }
+
+    /// Adds Λ times `direction`.
+    pub(super) fn bend(&self, image: [&mut Vec<f64>; 2], direction: [&[f64]; 2]) {
+        for (image, direction) in image.into_iter().zip(direction) {
+            let pairs = image.iter_mut().zip(direction).zip(&self.curvature);
+            pairs.for_each(|((image, direction), curvature)| *image += curvature * direction);
         }
     }
 }
 
-impl Tangent {
-    /// E: all of sticking contacts, what is along the circle of slipping ones.
-    pub(super) fn project(&self, pair: &mut Pair) {
-        let [x, y] = pair;
-        for at in (0..x.len()).filter(|&at| !self.sticks[at]) {
-            let [t_x, t_y] = pick(&self.along, at);
-            let along = t_x * x[at] + t_y * y[at];
-            (x[at], y[at]) = (along * t_x, along * t_y);
-        }
-    }
-
-    /// Adds Λ times `direction` and projects.
-    fn bend(&self, image: &mut Pair, direction: &Pair) {
-        for (image, direction) in image.iter_mut().zip(direction) {
-            for ((image, direction), curvature) in
-                image.iter_mut().zip(direction).zip(&self.curvature)
-            {
-                *image += curvature * direction;
-            }
-        }
-        self.project(image);
-    }
-
-    fn damp(&self, pair: &mut Pair) {
-        for part in pair {
-            for (entry, damping) in part.iter_mut().zip(&self.damping) {
-                *entry *= damping;
-            }
-        }
+/// The nearest on a disc.
+pub(super) fn onto_disc([x, y]: [f64; 2], radius: f64) -> [f64; 2] {
+    let length = x.hypot(y);
+    match length > radius {
+        true => [x * radius / length, y * radius / length],
+        false => [x, y],
     }
 }
 
 pub(super) fn pick(pair: &Pair, at: usize) -> [f64; 2] {
     [pair[0][at], pair[1][at]]
+}
+
+pub(super) fn put(pair: &mut Pair, at: usize, [x, y]: [f64; 2]) {
+    (pair[0][at], pair[1][at]) = (x, y);
 }

@@ -1,6 +1,6 @@
 //! GMRES, preconditioned on the right (Saad & Schultz, SIAM J. Sci. Stat. Comput. 7 (1986) 856–869).
 
-use super::vectors::{add, dot, norm};
+use super::vectors::{add, dot, norm, scaled};
 
 /// Steps without restart; all their directions are kept.
 const MOST_STEPS: usize = 80;
@@ -64,8 +64,4 @@ pub(super) fn gmres(system: &impl Linear, right: &[f64], tolerance: f64) -> Opti
         add(&mut sum, *weight, direction);
     }
     Some(system.precondition(&sum))
-}
-
-fn scaled(vector: &[f64], factor: f64) -> Vec<f64> {
-    vector.iter().map(|entry| factor * entry).collect()
 }

@@ -1,5 +1,6 @@
 //! The grid of rectangles that carries the tractions.
 
+use super::range::check_range;
 use crate::error::{Error, check_finite};
 
 /// Most cells of a grid: beyond, one solve would need more than some 16 GiB.
@@ -24,27 +25,18 @@ impl Grid {
     /// [`Error::NotFinite`].
     pub fn new(cells: [usize; 2], spacing: [f64; 2]) -> Result<Self, Error> {
         check_finite("grid.spacing", &spacing)?;
-        let refuse = |place: &str, at: usize, value: f64, accepted| {
-            Err(Error::OutOfRange {
-                place: format!("grid.{place}[{at}]"),
-                value,
-                accepted,
-            })
-        };
         for axis in 0..2 {
-            if cells[axis] == 0 || cells[axis] > MOST_CELLS {
-                let accepted = "from 1 to 33554432 cells";
-                return refuse("cells", axis, cells[axis] as f64, accepted);
-            }
-            if !(1e-50..=1e50).contains(&spacing[axis]) {
-                let accepted = "spacing > 0, from 1e-50 to 1e50";
-                return refuse("spacing", axis, spacing[axis], accepted);
-            }
+            let (count, side) = (cells[axis], spacing[axis]);
+            let accepted = "from 1 to 33554432 cells";
+            let good = (1..=MOST_CELLS).contains(&count);
+            check_range(format!("grid.cells[{axis}]"), count as f64, good, accepted)?;
+            let accepted = "spacing > 0, from 1e-50 to 1e50";
+            let good = (1e-50..=1e50).contains(&side);
+            check_range(format!("grid.spacing[{axis}]"), side, good, accepted)?;
         }
-        if cells[0].saturating_mul(cells[1]) > MOST_CELLS {
-            let accepted = "at most 33554432 cells in all";
-            return refuse("cells", 1, cells[1] as f64, accepted);
-        }
+        let accepted = "at most 33554432 cells in all";
+        let good = cells[0].saturating_mul(cells[1]) <= MOST_CELLS;
+        check_range("grid.cells[1]", cells[1] as f64, good, accepted)?;
         Ok(Self { cells, spacing })
     }
 
@@ -74,6 +66,23 @@ impl Grid {
             (number[axis] as f64 - 0.5 * (self.cells[axis] as f64 - 1.0)) * self.spacing[axis]
         };
         [along(0), along(1)]
+    }
+
+    /// Whether a cell is the first or the last along an axis that has several.
+    pub(super) fn at_border(&self, cell: usize) -> bool {
+        let number = [cell % self.cells[0], cell / self.cells[0]];
+        let ends = |axis: usize| number[axis] == 0 || number[axis] + 1 == self.cells[axis];
+        (0..2).any(|axis| self.cells[axis] > 1 && ends(axis))
+    }
+
+    /// The cell of a coarser grid over the same area that a cell lies in, for every cell.
+    pub(super) fn within(&self, coarser: &Self) -> Vec<usize> {
+        let of = |cell: usize| {
+            let [column, row] = [cell % self.cells[0], cell / self.cells[0]];
+            let along = |axis: usize, at: usize| at * coarser.cells[axis] / self.cells[axis];
+            along(0, column) + coarser.cells[0] * along(1, row)
+        };
+        (0..self.len()).map(of).collect()
     }
 
     /// A value at every cell, from its position.

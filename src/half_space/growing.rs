@@ -12,6 +12,7 @@
 use super::coupled::Coupled;
 use super::outcome::HalfSpaceWork;
 use super::problem::{Drag, HalfSpaceProblem};
+use super::vectors::largest;
 
 /// μ|β| that half-steps in turn cope with.
 const WEAK: f64 = 0.5;
@@ -28,11 +29,7 @@ const ON_EDGE: f64 = 1e-6;
 impl HalfSpaceProblem {
     /// Largest μ|β|.
     pub(super) fn strength(&self) -> f64 {
-        let most = self
-            .friction
-            .iter()
-            .fold(0.0, |most: f64, mu| most.max(*mu));
-        most * self.operator.dundurs()
+        largest(&self.friction) * self.operator.dundurs()
     }
 
     /// Follows (S17) from rest; nothing where s cannot reach 1.
@@ -79,14 +76,14 @@ impl HalfSpaceProblem {
 impl Coupled {
     /// The state where friction is `factor` times as strong: what slips grows with its disc.
     fn grown(&self, problem: &HalfSpaceProblem, factor: f64) -> Self {
-        let mut force = self.force.clone();
-        let [p, x, y] = &mut force;
+        let mut held = self.held.clone();
+        let [p, x, y] = &mut held.force;
         for at in 0..p.len() {
             let edge = problem.friction[at] * p[at].max(0.0) / factor;
             if x[at].hypot(y[at]) >= edge * (1.0 - ON_EDGE) {
                 (x[at], y[at]) = (x[at] * factor, y[at] * factor);
             }
         }
-        Self::new(problem, force, self.approach, self.shift)
+        Self::new(problem, held)
     }
 }

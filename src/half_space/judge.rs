@@ -12,9 +12,12 @@
 
 use std::f64::consts::PI;
 
+use rustfft::num_complex::Complex;
+
 use super::operator::{HalfSpace, Surroundings};
 use super::outcome::{HalfSpaceCertificate, HalfSpaceState};
 use super::problem::{Drag, HalfSpaceProblem, Press};
+use super::rough::scattered;
 use crate::error::Error;
 
 /// Cells or waves at which the operator is checked.
@@ -102,10 +105,9 @@ fn resultants(problem: &HalfSpaceProblem, state: &HalfSpaceState) -> f64 {
             let pairs = problem.friction().iter().zip(&state.reaction[0]);
             let most: f64 = pairs.map(|(mu, t_n)| -mu * t_n).sum();
             let missing = (sum(1) - x).hypot(sum(2) - y);
-            if missing > 0.0 {
-                missing / most.max(x.hypot(y))
-            } else {
-                0.0
+            match missing > 0.0 {
+                true => missing / most.max(x.hypot(y)),
+                false => 0.0,
             }
         }
     };
@@ -119,15 +121,13 @@ fn sums(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) ->
         .filter(|&cell| force.iter().any(|part| part[cell] != 0.0))
         .collect();
     let most = |fields: &[Vec<f64>; 3]| {
-        fields
-            .iter()
-            .flatten()
-            .fold(0.0_f64, |most, value| most.max(value.abs()))
+        let values = fields.iter().flatten();
+        values.fold(0.0_f64, |most, value| most.max(value.abs()))
     };
     let size = most(elastic).max(operator.diagonal()[0] * most(force));
     let mut worst = 0.0_f64;
     for sample in 0..SAMPLES {
-        let at = scattered(sample) as usize % cells;
+        let at = (scattered(sample) % cells as u64) as usize;
         let mut sum = [0.0; 3];
         for &of in &loaded {
             let Some(entries) = operator.influence(at, of) else {
@@ -147,28 +147,20 @@ fn sums(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) ->
 /// (S11) by the series: the displacement's amplitude at a wave is the symbol times that of the force.
 fn waves(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) -> f64 {
     let [columns, rows] = operator.grid().cells;
-    let mut worst = 0.0_f64;
+    let (unit, mut worst) = (Complex::<f64>::I, 0.0_f64);
     for sample in 0..SAMPLES {
-        let pick = |seed: u64, count: usize| scattered(seed) as usize % (count / 2 + 1);
+        let pick = |seed: u64, count: usize| (scattered(seed) % (count as u64 / 2 + 1)) as usize;
         let wave = [pick(2 * sample, columns), pick(2 * sample + 1, rows)];
         let of = |field: &Vec<f64>| amplitude(field, [columns, rows], wave);
-        let ([n, x, y], found) = (
-            [0, 1, 2].map(|c| of(&force[c])),
-            [0, 1, 2].map(|c| of(&elastic[c])),
-        );
+        let ([n, x, y], found) = (force.each_ref().map(of), elastic.each_ref().map(of));
         let [nn, xx, yy, xy, xn, yn] = operator.symbol(wave);
-        let turned = |[re, im]: [f64; 2]| [-im, re];
-        let expected = [0, 1].map(|part| {
-            let tangential = [xn * turned(x)[part], yn * turned(y)[part]];
-            [
-                nn * n[part] - tangential[0] - tangential[1],
-                xx * x[part] + xy * y[part] + xn * turned(n)[part],
-                yy * y[part] + xy * x[part] + yn * turned(n)[part],
-            ]
-        });
-        for component in 0..3 {
-            let off = [0, 1].map(|part| found[component][part] - expected[part][component]);
-            worst = worst.max(off[0].hypot(off[1]));
+        let expected = [
+            n * nn - unit * (x * xn + y * yn),
+            x * xx + y * xy + unit * (n * xn),
+            y * yy + x * xy + unit * (n * yn),
+        ];
+        for (found, expected) in found.into_iter().zip(expected) {
+            worst = worst.max((found - expected).norm());
         }
     }
     let norm = |fields: &[Vec<f64>; 3]| {
@@ -180,33 +172,18 @@ fn waves(operator: &HalfSpace, force: &[Vec<f64>; 3], elastic: &[Vec<f64>; 3]) -
     if worst > 0.0 { worst / size } else { 0.0 }
 }
 
-/// `Σ field · exp(−i k·x)`, term by term: real and imaginary part.
-fn amplitude(field: &[f64], [columns, rows]: [usize; 2], wave: [usize; 2]) -> [f64; 2] {
-    let phases = |count: usize, wave: usize| -> Vec<[f64; 2]> {
-        let phase = |at: usize| -2.0 * PI * ((at * wave) % count) as f64 / count as f64;
-        (0..count)
-            .map(|at| phase(at).sin_cos())
-            .map(|(sin, cos)| [cos, sin])
-            .collect()
+/// `Σ field · exp(−i k·x)`, term by term.
+fn amplitude(field: &[f64], [columns, rows]: [usize; 2], wave: [usize; 2]) -> Complex<f64> {
+    let phases = |count: usize, wave: usize| -> Vec<Complex<f64>> {
+        let turn = |at: usize| -2.0 * PI * ((at * wave) % count) as f64 / count as f64;
+        (0..count).map(|at| Complex::cis(turn(at))).collect()
     };
-    let (along_x, along_y) = (phases(columns, wave[0]), phases(rows, wave[1]));
-    let mut sum = [0.0; 2];
-    for (row, values) in field.chunks(columns).enumerate() {
-        let mut of_row = [0.0; 2];
-        for (value, phase) in values.iter().zip(&along_x) {
-            of_row = [of_row[0] + value * phase[0], of_row[1] + value * phase[1]];
-        }
-        let [re, im] = along_y[row];
-        sum[0] += of_row[0] * re - of_row[1] * im;
-        sum[1] += of_row[0] * im + of_row[1] * re;
-    }
-    sum
-}
-
-/// A number without pattern (SplitMix64).
-fn scattered(seed: u64) -> u64 {
-    let mixed = (seed + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-    let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-    (mixed ^ (mixed >> 31)) >> 1
+    let along_x = phases(columns, wave[0]);
+    let of_row = |values: &[f64]| -> Complex<f64> {
+        let pairs = values.iter().zip(&along_x);
+        pairs.map(|(value, phase)| phase * value).sum()
+    };
+    let along_y = phases(rows, wave[1]);
+    let pairs = field.chunks(columns).zip(along_y);
+    pairs.map(|(row, phase)| of_row(row) * phase).sum()
 }

@@ -14,6 +14,7 @@
 //! (S12) random surfaces                          `rough`
 //! (S13) all laws at once                         `finish`: Newton's method with GMRES
 //! (S17) strong friction                          `growing`: the coefficient grows to what it is
+//! (S18) given force                              `forced`: the shift with the friction half-step
 //! (S14) rolling                                  `rolling`
 //! (S15) power spectrum                           `spectrum`
 //! (S16) stiffness                                `stiffness`
@@ -55,6 +56,7 @@ mod clusters;
 mod compliance;
 mod coupled;
 mod finish;
+mod forced;
 mod friction;
 mod gmres;
 mod grid;
@@ -65,6 +67,7 @@ mod operator;
 mod outcome;
 mod points;
 mod problem;
+mod range;
 mod rectangle;
 mod rolling;
 mod rough;

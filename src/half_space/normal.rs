@@ -72,11 +72,8 @@ impl NormalHalfStep<'_> {
             }
             let (next, kept) = self.conjugate(&state, memory.take());
             let noise = ENERGY_NOISE * next.energy.abs().max(state.energy.abs());
-            changes = if next.points == state.points {
-                0
-            } else {
-                changes + 1
-            };
+            let changed = next.points != state.points;
+            changes = if changed { changes + 1 } else { 0 };
             if next.energy <= state.energy + noise && changes < CHANGES {
                 (state, memory) = (next, kept);
                 continue;
@@ -100,11 +97,8 @@ impl NormalHalfStep<'_> {
             Some(load) => force.fill(load / self.constant.len() as f64),
             None if sum > 0.0 => {}
             None => {
-                let pushed = self
-                    .constant
-                    .iter()
-                    .map(|c| (-c).max(0.0) / (20.0 * diagonal));
-                force = pushed.collect();
+                let pushed = |c: &f64| (-c).max(0.0) / (20.0 * diagonal);
+                force = self.constant.iter().map(pushed).collect();
             }
         }
         force
@@ -161,11 +155,8 @@ impl NormalHalfStep<'_> {
     /// One step of conjugate gradients, cut off at zero, and contacts released.
     fn conjugate(&self, state: &Pressed, memory: Option<Memory>) -> (Pressed, Option<Memory>) {
         let points = &state.points;
-        let residual: Vec<f64> = points
-            .cells()
-            .iter()
-            .map(|&cell| state.gap[cell] - state.approach)
-            .collect();
+        let of = |&cell: &usize| state.gap[cell] - state.approach;
+        let residual = points.cells().iter().map(of).collect();
         let memory = self.direction(points, residual, memory);
         let whole = self.operator.whole();
         let product = self.operator.normal(&memory.direction, points, whole);
@@ -204,13 +195,10 @@ impl NormalHalfStep<'_> {
         let mut direction = self.operator.inverse_normal(&residual, points);
         let product = dot(&residual, &direction);
         if let Some(last) = memory {
-            let before = points.carry(&last.points, &last.residual);
+            let [before, along] =
+                [&last.residual, &last.direction].map(|part| points.carry(&last.points, part));
             let turn = (product - dot(&before, &direction)) / last.product;
-            add(
-                &mut direction,
-                turn.max(0.0),
-                &points.carry(&last.points, &last.direction),
-            );
+            add(&mut direction, turn.max(0.0), &along);
         }
         if self.load.is_some() {
             let mean = total(&direction) / direction.len() as f64;

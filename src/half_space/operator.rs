@@ -5,14 +5,19 @@ use std::sync::{Arc, OnceLock};
 use super::compliance::{ElasticHalf, SurfaceCompliance};
 use super::grid::Grid;
 use super::points::Points;
+use super::range::check_range;
 use super::rectangle::{KERNELS, arranged, rectangle, strip};
 use super::symbol::Symbols;
 use super::transform::{Convolution, Mix, Transforms};
-use super::vectors::Pair;
+use super::vectors::{Pair, zero_pair};
 use crate::error::{Error, check_length};
 
 /// Cells of a grid that needs no coarser one for a start.
 const COARSEST: usize = 1024;
+
+/// What comes out of a convolution.
+const NORMAL: [bool; 3] = [true, false, false];
+const TANGENTIAL: [bool; 3] = [false, true, true];
 
 /// What lies around the grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,34 +69,25 @@ impl HalfSpace {
     ) -> Result<Self, Error> {
         let grid = Grid::new(grid.cells, grid.spacing)?;
         let compliance = SurfaceCompliance::new(material, other)?;
-        if surroundings == Surroundings::Plane && grid.cells[1] != 1 {
-            return Err(Error::OutOfRange {
-                place: "grid.cells[1]".to_owned(),
-                value: grid.cells[1] as f64,
-                accepted: "1 row for a half-plane",
-            });
-        }
-        if surroundings == Surroundings::Periodic && grid.len() == 1 {
-            return Err(Error::OutOfRange {
-                place: "grid.cells[0]".to_owned(),
-                value: 1.0,
-                accepted: "two cells or more on a periodic surface, whose mean nothing moves",
-            });
-        }
-        let padded = match surroundings {
-            Surroundings::Periodic => grid.cells,
-            Surroundings::Free | Surroundings::Plane => grid.cells.map(padded_length),
-        };
-        let symbols = match surroundings {
-            Surroundings::Periodic => Symbols::periodic(&grid, &compliance),
-            Surroundings::Free | Surroundings::Plane => Symbols::bounded(padded, &|offset| {
-                influence(&grid, surroundings, &compliance, offset.map(|at| at as f64))
-            }),
-        };
-        let own = influence(&grid, surroundings, &compliance, [0.0; 2]);
-        let diagonal = match surroundings {
-            Surroundings::Periodic => symbols.means(),
-            Surroundings::Free | Surroundings::Plane => [own[0], own[1], own[2]],
+        let [columns, rows] = grid.cells;
+        let one = surroundings != Surroundings::Plane || rows == 1;
+        check_range("grid.cells[1]", rows as f64, one, "1 row for a half-plane")?;
+        let accepted = "two cells or more on a periodic surface, whose mean nothing moves";
+        let several = surroundings != Surroundings::Periodic || grid.len() > 1;
+        check_range("grid.cells[0]", columns as f64, several, accepted)?;
+        let of = |offset| influence(&grid, surroundings, &compliance, offset);
+        let (padded, symbols, diagonal) = match surroundings {
+            Surroundings::Periodic => {
+                let symbols = Symbols::periodic(&grid, &compliance);
+                let diagonal = symbols.means();
+                (grid.cells, symbols, diagonal)
+            }
+            Surroundings::Free | Surroundings::Plane => {
+                let padded = grid.cells.map(padded_length);
+                let symbols = Symbols::bounded(padded, &|cells| of(cells.map(|at| at as f64)));
+                let [nn, xx, yy, ..] = of([0.0; 2]);
+                (padded, symbols, [nn, xx, yy])
+            }
         };
         Ok(Self {
             surroundings,
@@ -165,7 +161,8 @@ impl HalfSpace {
     /// [`Error::Length`] as `apply`.
     pub fn transform(&self, forces: [&[f64]; 3]) -> Result<[Vec<f64>; 3], Error> {
         self.check_forces(forces)?;
-        Ok(self.convolve(forces, &self.whole, &self.whole, &|_, _| {}))
+        let forces = forces.map(Some);
+        Ok(self.convolve(forces, &self.whole, [true; 3], &self.whole, &|_, _| {}))
     }
 
     fn check_forces(&self, forces: [&[f64]; 3]) -> Result<(), Error> {
@@ -229,68 +226,35 @@ impl HalfSpace {
     }
 
     pub(super) fn full(&self, forces: [&[f64]; 3], from: &Points, to: &Points) -> [Vec<f64>; 3] {
-        self.convolve(forces, from, to, &|column, waves| {
-            self.symbols.full(column, waves)
-        })
-    }
-
-    fn convolve(&self, forces: [&[f64]; 3], from: &Points, to: &Points, mix: Mix) -> [Vec<f64>; 3] {
-        let asked = Convolution {
-            inputs: forces.map(Some),
-            from,
-            outputs: [true; 3],
-            to,
-        };
-        self.transforms.convolve(&asked, mix)
+        let mix: Mix = &|column, waves| self.symbols.full(column, waves);
+        self.convolve(forces.map(Some), from, [true; 3], to, mix)
     }
 
     /// Normal displacement of normal forces.
     pub(super) fn normal(&self, force: &[f64], from: &Points, to: &Points) -> Vec<f64> {
-        self.one(force, from, to, &|column, waves| {
-            self.symbols.normal(column, waves)
-        })
+        let mix: Mix = &|column, waves| self.symbols.normal(column, waves);
+        let [normal, ..] = self.convolve([Some(force), None, None], from, NORMAL, to, mix);
+        normal
     }
 
     /// Preconditioner for [`HalfSpace::normal`]: the inverse symbol, on the same points.
     pub(super) fn inverse_normal(&self, force: &[f64], on: &Points) -> Vec<f64> {
-        self.one(force, on, on, &|column, waves| {
-            self.symbols.inverse_normal(column, waves)
-        })
-    }
-
-    fn one(&self, force: &[f64], from: &Points, to: &Points, mix: Mix) -> Vec<f64> {
-        let asked = Convolution {
-            inputs: [Some(force), None, None],
-            from,
-            outputs: [true, false, false],
-            to,
-        };
-        let [normal, ..] = self.transforms.convolve(&asked, mix);
+        let mix: Mix = &|column, waves| self.symbols.inverse_normal(column, waves);
+        let [normal, ..] = self.convolve([Some(force), None, None], on, NORMAL, on, mix);
         normal
     }
 
     /// Tangential displacement of tangential forces.
-    pub(super) fn tangential(&self, force: &Pair, from: &Points, to: &Points) -> Pair {
-        self.two(force, from, to, &|column, waves| {
-            self.symbols.tangential(column, waves)
-        })
+    pub(super) fn tangential(&self, [x, y]: &Pair, from: &Points, to: &Points) -> Pair {
+        let mix: Mix = &|column, waves| self.symbols.tangential(column, waves);
+        let [_, x, y] = self.convolve([None, Some(x), Some(y)], from, TANGENTIAL, to, mix);
+        [x, y]
     }
 
     /// Preconditioner for [`HalfSpace::tangential`]: the inverse symbol, on the same points.
-    pub(super) fn inverse_tangential(&self, force: &Pair, on: &Points) -> Pair {
-        self.two(force, on, on, &|column, waves| {
-            self.symbols.inverse_tangential(column, waves);
-        })
-    }
-
-    fn two(&self, [x, y]: &Pair, from: &Points, to: &Points, mix: Mix) -> Pair {
-        let asked = Convolution {
-            inputs: [None, Some(x), Some(y)],
-            from,
-            outputs: [false, true, true],
-            to,
-        };
-        let [_, x, y] = self.transforms.convolve(&asked, mix);
+    pub(super) fn inverse_tangential(&self, [x, y]: &Pair, on: &Points) -> Pair {
+        let mix: Mix = &|column, waves| self.symbols.inverse_tangential(column, waves);
+        let [_, x, y] = self.convolve([None, Some(x), Some(y)], on, TANGENTIAL, on, mix);
         [x, y]
     }
 
@@ -304,31 +268,36 @@ impl HalfSpace {
         if !self.coupled() {
             return vec![0.0; to.len()];
         }
-        let asked = Convolution {
-            inputs: [None, Some(x), Some(y)],
-            from,
-            outputs: [true, false, false],
-            to,
-        };
         let mix: Mix = &|column, waves| self.symbols.normal_of_tangential(column, waves);
-        let [normal, ..] = self.transforms.convolve(&asked, mix);
+        let [normal, ..] = self.convolve([None, Some(x), Some(y)], from, NORMAL, to, mix);
         normal
     }
 
     /// Tangential displacement of normal forces.
     pub(super) fn tangential_of_normal(&self, force: &[f64], from: &Points, to: &Points) -> Pair {
         if !self.coupled() {
-            return super::vectors::zero_pair(to.len());
+            return zero_pair(to.len());
         }
+        let mix: Mix = &|column, waves| self.symbols.tangential_of_normal(column, waves);
+        let [_, x, y] = self.convolve([Some(force), None, None], from, TANGENTIAL, to, mix);
+        [x, y]
+    }
+
+    fn convolve(
+        &self,
+        inputs: [Option<&[f64]>; 3],
+        from: &Points,
+        outputs: [bool; 3],
+        to: &Points,
+        mix: Mix,
+    ) -> [Vec<f64>; 3] {
         let asked = Convolution {
-            inputs: [Some(force), None, None],
+            inputs,
             from,
-            outputs: [false, true, true],
+            outputs,
             to,
         };
-        let mix: Mix = &|column, waves| self.symbols.tangential_of_normal(column, waves);
-        let [_, x, y] = self.transforms.convolve(&asked, mix);
-        [x, y]
+        self.transforms.convolve(&asked, mix)
     }
 }
 

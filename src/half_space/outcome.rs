@@ -69,6 +69,9 @@ pub struct HalfSpaceOutcome {
     pub gap: Vec<f64>,
     /// Slip along x and y since the start of the step, in metre per cell.
     pub slip: [Vec<f64>; 2],
+    /// Cells at the border of a grid that is not periodic that press: where the body goes on there, so does
+    /// the contact, and pressures near them are wrong.
+    pub at_border: usize,
     /// What it took.
     pub work: HalfSpaceWork,
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::operator::{HalfSpace, Surroundings};
 use super::outcome::HalfSpaceOutcome;
+use super::range::check_range;
 use super::vectors::{Pair, zero_pair};
 use crate::error::{Error, check_finite, check_length};
 
@@ -126,11 +127,16 @@ impl HalfSpaceProblem {
     ///
     /// [`Error::Length`] if the outcome is not of the problem's cells.
     pub fn following(self, outcome: &HalfSpaceOutcome) -> Result<Self, Error> {
-        let total = [0, 1].map(|axis| {
+        let total = self.moved_so_far(outcome);
+        self.after(total)
+    }
+
+    /// Relative displacement along x and y since the first step, in metre per cell.
+    pub(super) fn moved_so_far(&self, outcome: &HalfSpaceOutcome) -> Pair {
+        [0, 1].map(|axis| {
             let pairs = outcome.slip[axis].iter().zip(&self.reference[axis]);
             pairs.map(|(slip, before)| slip + before).collect()
-        });
-        self.after(total)
+        })
     }
 
     /// The operator `G`.
@@ -163,6 +169,22 @@ impl HalfSpaceProblem {
         self.drag
     }
 
+    /// Cells at the border that press under such normal reactions, where a contact would go on with the body;
+    /// none of a periodic grid, nor of a flat punch that ends with the grid.
+    pub(super) fn pressing_at_border(&self, normal: &[f64]) -> usize {
+        let grid = self.operator.grid();
+        let edge: Vec<usize> = (0..grid.len())
+            .filter(|&cell| grid.at_border(cell))
+            .collect();
+        let pressing = edge.iter().filter(|&&cell| normal[cell] < 0.0).count();
+        let level = |cell: &usize| self.initial_gap[*cell] == self.initial_gap[edge[0]];
+        let punch = normal.iter().all(|t_n| *t_n < 0.0) && edge.iter().all(level);
+        match self.operator.surroundings() == Surroundings::Periodic || punch {
+            true => 0,
+            false => pressing,
+        }
+    }
+
     /// Whether any contact has friction.
     pub(super) fn has_friction(&self) -> bool {
         self.friction.iter().any(|&mu| mu > 0.0)
@@ -172,27 +194,30 @@ impl HalfSpaceProblem {
 /// Finite, and small enough for squares of products.
 fn check_size(place: &str, values: &[f64]) -> Result<(), Error> {
     check_finite(place, values)?;
-    match values.iter().position(|value| value.abs() > LARGEST) {
-        None => Ok(()),
-        Some(at) => Err(Error::OutOfRange {
-            place: match values.len() {
-                1 => place.to_owned(),
-                _ => format!("{place}[{at}]"),
-            },
-            value: values[at],
-            accepted: "at most 1e50: choose larger units",
-        }),
-    }
+    let Some(at) = values.iter().position(|value| value.abs() > LARGEST) else {
+        return Ok(());
+    };
+    let place = match values.len() {
+        1 => place.to_owned(),
+        _ => format!("{place}[{at}]"),
+    };
+    check_range(
+        place,
+        values[at],
+        false,
+        "at most 1e50: choose larger units",
+    )
 }
 
 fn friction_per_cell(friction: &[f64], cells: usize) -> Result<Vec<f64>, Error> {
     check_finite("friction", friction)?;
     if let Some(at) = friction.iter().position(|&mu| mu < 0.0) {
-        return Err(Error::OutOfRange {
-            place: format!("friction[{at}]"),
-            value: friction[at],
-            accepted: "friction >= 0",
-        });
+        check_range(
+            format!("friction[{at}]"),
+            friction[at],
+            false,
+            "friction >= 0",
+        )?;
     }
     let friction = match friction {
         [all] => vec![*all; cells],
@@ -203,23 +228,22 @@ fn friction_per_cell(friction: &[f64], cells: usize) -> Result<Vec<f64>, Error> 
 }
 
 fn check_press(press: Press, surroundings: Surroundings) -> Result<(), Error> {
-    let (place, value) = match press {
-        Press::Approach(approach) => ("approach", approach),
-        Press::Load(load) => ("load", load),
-    };
-    check_size(place, &[value])?;
     match press {
-        Press::Load(load) if load < 0.0 => Err(Error::OutOfRange {
-            place: place.to_owned(),
-            value: load,
-            accepted: "load >= 0: the sum of what presses",
-        }),
+        Press::Load(load) => {
+            check_size("load", &[load])?;
+            check_range(
+                "load",
+                load,
+                load >= 0.0,
+                "load >= 0: the sum of what presses",
+            )
+        }
         Press::Approach(_) if surroundings == Surroundings::Periodic => Err(Error::NotAccepted {
-            place: place.to_owned(),
+            place: "approach".to_owned(),
             found: "an approach on a periodic half-space".to_owned(),
             accepted: "a load: a mean pressure moves no periodic half-space by a finite amount"
                 .to_owned(),
         }),
-        Press::Load(_) | Press::Approach(_) => Ok(()),
+        Press::Approach(approach) => check_size("approach", &[approach]),
     }
 }

@@ -94,23 +94,19 @@ pub(super) fn rectangle(
         }
     }
     let area = sides[0] * sides[1];
-    combine(compliance, mean.map(|integral| integral / area))
-}
-
-fn combine(compliance: &SurfaceCompliance, mean: [f64; KERNELS]) -> [f64; KERNELS] {
     let SurfaceCompliance {
         direct,
         lateral,
         coupling,
     } = compliance;
-    let [inverse, xx, yy, xy, x, y] = mean;
+    let [inverse, xx, yy, xy, x, y] = mean.map(|integral| integral / (2.0 * PI * area));
     [
-        direct * inverse / (2.0 * PI),
-        (direct * inverse + lateral * xx) / (2.0 * PI),
-        (direct * inverse + lateral * yy) / (2.0 * PI),
-        lateral * xy / (2.0 * PI),
-        coupling * x / (4.0 * PI),
-        coupling * y / (4.0 * PI),
+        direct * inverse,
+        direct * inverse + lateral * xx,
+        direct * inverse + lateral * yy,
+        lateral * xy,
+        0.5 * coupling * x,
+        0.5 * coupling * y,
     ]
 }
 

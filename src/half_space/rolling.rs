@@ -58,9 +58,8 @@ impl HalfSpaceProblem {
         let mut step = self.clone().after(self.flow(creepage, None))?;
         let mut outcome = step.solve_to(ON_THE_WAY)?;
         for number in 2..=most {
-            step = self
-                .clone()
-                .after(step_reference(self, creepage, &step, &outcome))?;
+            let before = step.moved_so_far(&outcome);
+            step = self.clone().after(self.flow(creepage, Some(&before)))?;
             let next = step.solve_from(&outcome.state, ON_THE_WAY)?;
             let change = change(&outcome, &next);
             outcome = next;
@@ -88,19 +87,6 @@ impl HalfSpaceProblem {
             (0..grid.len()).map(of).collect()
         })
     }
-}
-
-fn step_reference(
-    problem: &HalfSpaceProblem,
-    creepage: Creepage,
-    step: &HalfSpaceProblem,
-    outcome: &HalfSpaceOutcome,
-) -> [Vec<f64>; 2] {
-    let total = [0, 1].map(|axis| {
-        let pairs = outcome.slip[axis].iter().zip(&step.reference[axis]);
-        pairs.map(|(slip, before)| slip + before).collect()
-    });
-    problem.flow(creepage, Some(&total))
 }
 
 /// Σ ‖t_T − t_T⁻‖ / Σ ‖t_T‖.

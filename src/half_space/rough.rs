@@ -14,6 +14,7 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::grid::Grid;
+use super::range::check_range;
 use crate::error::{Error, check_finite};
 
 /// What decides a surface.
@@ -66,10 +67,9 @@ impl SelfAffine {
                 waves[at(-column, -row)] = wave.conj();
             }
         }
-        let factor = if square > 0.0 {
-            self.slope / square.sqrt()
-        } else {
-            0.0
+        let factor = match square > 0.0 {
+            true => self.slope / square.sqrt(),
+            false => 0.0,
         };
         transform(&mut waves, grid.cells);
         Ok(waves.iter().map(|wave| factor * wave.re).collect())
@@ -78,55 +78,54 @@ impl SelfAffine {
     fn check(&self, grid: &Grid) -> Result<(), Error> {
         let numbers = [self.hurst, self.roll_off, self.cut_off, self.slope];
         check_finite("surface", &numbers)?;
-        let coarsest = grid.spacing[0].max(if grid.cells[1] > 1 {
+        let across = if grid.cells[1] > 1 {
             grid.spacing[1]
         } else {
             0.0
-        });
+        };
+        let coarsest = grid.spacing[0].max(across);
         // What is computed as two cells may be below by round-off.
         let shortest = 2.0 * coarsest * (1.0 - 1e-12);
-        let refused = [
+        let (hurst, cut_off, roll_off) = (self.hurst, self.cut_off, self.roll_off);
+        for (field, value, good, accepted) in [
             (
                 "hurst",
-                self.hurst,
-                (0.0..=1.0).contains(&self.hurst),
+                hurst,
+                (0.0..=1.0).contains(&hurst),
                 "0 <= hurst <= 1",
             ),
             (
                 "cut_off",
-                self.cut_off,
-                self.cut_off >= shortest,
+                cut_off,
+                cut_off >= shortest,
                 "cut_off >= two cells",
             ),
             (
                 "roll_off",
-                self.roll_off,
-                self.roll_off >= self.cut_off,
+                roll_off,
+                roll_off >= cut_off,
                 "roll_off >= cut_off",
             ),
             ("slope", self.slope, self.slope >= 0.0, "slope >= 0"),
-        ];
-        match refused.into_iter().find(|(.., good, _)| !good) {
-            None => Ok(()),
-            Some((field, value, _, accepted)) => Err(Error::OutOfRange {
-                place: format!("surface.{field}"),
-                value,
-                accepted,
-            }),
+        ] {
+            check_range(format!("surface.{field}"), value, good, accepted)?;
         }
+        Ok(())
     }
 
-    /// φ of a wave, in radian (SplitMix64 of its numbers and the seed).
+    /// φ of a wave, in radian, from its numbers and the seed.
     fn phase(&self, column: i64, row: i64) -> f64 {
-        let mix = |state: u64| {
-            let mixed = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            mixed ^ (mixed >> 31)
-        };
-        let bits = mix(mix(mix(self.seed) ^ column as u64) ^ row as u64);
+        let bits = scattered(scattered(scattered(self.seed) ^ column as u64) ^ row as u64);
         2.0 * PI * (bits >> 11) as f64 / (1_u64 << 53) as f64
     }
+}
+
+/// A number without pattern for every number (SplitMix64).
+pub(super) fn scattered(number: u64) -> u64 {
+    let mixed = number.wrapping_add(0x9E37_79B9_7F4A_7C15);
+    let mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    mixed ^ (mixed >> 31)
 }
 
 /// Sum of waves at every cell, in place.

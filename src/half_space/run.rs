@@ -5,7 +5,7 @@
 //! repeat    p   ← (S7) with c = g₀ − δ − G_NT q         to a tenth of the residual
 //!           q   ← slipping contacts to their new radius −μ t_N
 //!           q   ← (S8) with R = μ p, c = û_T − G_TN p    to a tenth of the residual
-//!           U   ← U + K⁻¹ (Q − Σ q)                      if the force is given: K = Σ E (G + Λ)⁻¹ E
+//!                 with U by (S18)                        if the force is given
 //! until     natural map (K1) of all contacts ≤ tolerance
 //! ```
 
@@ -13,6 +13,7 @@ use super::coupled::Coupled;
 use super::judge::judge;
 use super::outcome::{HalfSpaceOutcome, HalfSpaceState, HalfSpaceStatus, HalfSpaceWork};
 use super::problem::HalfSpaceProblem;
+use super::range::check_range;
 use super::sweep::Iterate;
 use crate::error::{Error, check_finite, check_length};
 
@@ -101,7 +102,7 @@ impl HalfSpaceProblem {
         mut work: HalfSpaceWork,
     ) -> Result<HalfSpaceOutcome, Error> {
         let end = self.run(start, tolerance, &mut work);
-        let state = end.iterate.state(self);
+        let state = end.iterate.state();
         let judged = judge(self, &state)?;
         let certificate = judged.certificate;
         let sound = certificate.residual <= tolerance
@@ -116,16 +117,17 @@ impl HalfSpaceProblem {
         let gap = gaps.map(|(u, gap)| gap - state.approach - u).collect();
         let slip = [0, 1].map(|axis| {
             let pairs = judged.elastic[axis + 1].iter().zip(&self.reference[axis]);
-            pairs
-                .map(|(u, before)| u - state.shift[axis] - before)
-                .collect()
+            let of = |(u, before)| u - state.shift[axis] - before;
+            pairs.map(of).collect()
         });
+        let at_border = self.pressing_at_border(&state.reaction[0]);
         Ok(HalfSpaceOutcome {
             status,
             certificate,
             state,
             gap,
             slip,
+            at_border,
             work,
         })
     }
@@ -156,30 +158,21 @@ impl HalfSpaceProblem {
     ) -> Progress {
         let before = self.operator.transforms();
         let mut may_grow = self.strength() > STRONG;
-        for outer in 1..=MOST_OUTER {
-            work.outer = outer;
-            let fall = progress.sweep(self, tolerance);
-            if progress.ends(tolerance) {
-                break;
+        while work.outer < MOST_OUTER && !progress.ends(tolerance) {
+            work.outer += 1;
+            let slow = progress.sweep(self, tolerance) > SLOW && work.outer > 1;
+            let helped = slow && !progress.ends(tolerance) && progress.newton(self, tolerance);
+            if helped || progress.ends(tolerance) {
+                continue;
             }
-            let newton = outer > 1 && fall > SLOW && progress.newton(self, tolerance);
-            if progress.ends(tolerance) {
-                break;
-            }
-            if may_grow && !newton && progress.share < 1.0 {
+            if may_grow && progress.share < 1.0 {
                 may_grow = false;
                 if let Some(state) = self.grown(tolerance, work) {
                     progress.take(self, &state);
-                    if progress.ends(tolerance) {
-                        break;
-                    }
                     continue;
                 }
             }
-            if !newton {
-                progress.damp();
-                self.aim(&mut progress.iterate);
-            }
+            progress.damp();
         }
         work.transforms += (self.operator.transforms() - before) as f64;
         progress
@@ -187,14 +180,8 @@ impl HalfSpaceProblem {
 }
 
 fn check_tolerance(tolerance: f64) -> Result<(), Error> {
-    if (1e-15..=1e-2).contains(&tolerance) {
-        return Ok(());
-    }
-    Err(Error::OutOfRange {
-        place: "tolerance".to_owned(),
-        value: tolerance,
-        accepted: "from 1e-15 to 1e-2",
-    })
+    let good = (1e-15..=1e-2).contains(&tolerance);
+    check_range("tolerance", tolerance, good, "from 1e-15 to 1e-2")
 }
 
 /// Where the loop stands, and how well it goes.
@@ -257,7 +244,7 @@ impl Progress {
     }
 
     fn take(&mut self, problem: &HalfSpaceProblem, state: &Coupled) {
-        self.iterate = Iterate::of(problem, state);
+        self.iterate = Iterate::of(problem, state.held.clone());
         self.residual = state.residual;
     }
 

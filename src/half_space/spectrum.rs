@@ -60,11 +60,9 @@ pub fn power_spectrum(
         1 => 0.0,
         cells => 2.0 * PI / (cells as f64 * grid.spacing[axis]),
     });
-    let longest = turn
-        .into_iter()
-        .filter(|k| *k > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    let unit: f64 = turn.into_iter().filter(|k| *k > 0.0).product();
+    let turns = turn.into_iter().filter(|k| *k > 0.0);
+    let longest = turns.clone().fold(f64::INFINITY, f64::min);
+    let unit: f64 = turns.product();
     let scale = 1.0 / (unit * (grid.len() as f64).powi(2));
     let mut rings: Vec<(f64, f64, usize)> = Vec::new();
     for (at, amplitude) in waves.iter().enumerate().skip(1) {
@@ -88,11 +86,8 @@ pub fn power_spectrum(
 
 /// A wave's number, negative in the upper half.
 fn signed(at: usize, count: usize) -> f64 {
-    if 2 * at > count {
-        at as f64 - count as f64
-    } else {
-        at as f64
-    }
+    let turns = if 2 * at > count { count } else { 0 };
+    at as f64 - turns as f64
 }
 
 /// √(8/3) sin² over the middle of the cells; one for a single cell.

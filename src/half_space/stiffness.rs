@@ -9,7 +9,7 @@
 
 use super::operator::Surroundings;
 use super::outcome::{HalfSpaceOutcome, HalfSpaceState};
-use super::problem::{Drag, HalfSpaceProblem, Press};
+use super::problem::{HalfSpaceProblem, Press};
 use crate::error::Error;
 
 /// Residual of the punch.
@@ -35,19 +35,11 @@ impl HalfSpaceProblem {
         // More than the load on a single cell would sink it by.
         let far = 10.0 * self.operator.diagonal()[0] * load;
         let gap = normal.iter().map(|t| if *t < 0.0 { 0.0 } else { far });
-        let punch = Self::new(
-            self.operator.clone(),
-            gap.collect(),
-            &[0.0],
-            Press::Load(load),
-        )?
-        .dragged(Drag::Shift([0.0; 2]))?;
+        let gap = gap.collect();
+        let punch = Self::new(self.operator.clone(), gap, &[0.0], Press::Load(load))?;
+        let none = vec![0.0; normal.len()];
         let near = HalfSpaceState {
-            reaction: [
-                normal.clone(),
-                vec![0.0; normal.len()],
-                vec![0.0; normal.len()],
-            ],
+            reaction: [normal.clone(), none.clone(), none],
             approach: 0.0,
             shift: [0.0; 2],
         };

@@ -1,20 +1,13 @@
-//! One sweep: a normal half-step, a friction half-step, and the shift that a given force takes.
+//! One sweep: a normal half-step and a friction half-step.
 
-use super::coupled::Coupled;
-use super::friction::{FrictionHalfStep, Rubbed};
+use super::coupled::{Coupled, Held};
+use super::friction::FrictionHalfStep;
 use super::normal::{NormalHalfStep, Pressed};
 use super::outcome::HalfSpaceState;
 use super::points::Points;
 use super::problem::{Drag, HalfSpaceProblem, Press};
-use super::vectors::{Pair, add, add_pair, norm, norm_pair, sum, total, zero_pair};
+use super::vectors::{Pair, add, dot, norm, norm_pair, total};
 use crate::error::Error;
-
-/// Relative tolerance of the stiffness K that corrects the shift: it only steers.
-const STIFFNESS: f64 = 0.1;
-
-/// Longest move of the other side at a time, over the longest slip, once there is any: what all contacts that
-/// slip carry nears the edge like the inverse square of the shift, to which a tangent tells nothing far away.
-const FARTHEST: f64 = 3.0;
 
 /// A contact this close to the edge of its disc, relative to the radius, is scaled with it.
 const ON_EDGE: f64 = 1e-9;
@@ -22,171 +15,109 @@ const ON_EDGE: f64 = 1e-9;
 /// Where the outer loop stands.
 #[derive(Clone, Debug)]
 pub(super) struct Iterate {
-    /// p per cell, in N.
-    pressing: Vec<f64>,
+    held: Held,
     /// `G_NT q` per cell, in metre.
     raised: Vec<f64>,
-    /// Contacts with a disc, their q and radius in N, and their slip in metre.
-    contact: Points,
-    rubbing: Pair,
-    bound: Vec<f64>,
-    slip: Pair,
-    approach: f64,
-    shift: [f64; 2],
 }
 
 impl Iterate {
     /// Nothing pressed.
     pub(super) fn new(problem: &HalfSpaceProblem) -> Self {
-        let cells = problem.friction.len();
-        Self {
-            pressing: vec![0.0; cells],
-            raised: vec![0.0; cells],
-            contact: Points::select(problem.operator.grid(), |_| false),
-            rubbing: zero_pair(0),
-            bound: Vec::new(),
-            slip: zero_pair(0),
+        let none = vec![0.0; problem.friction.len()];
+        let held = Held {
+            force: [none.clone(), none.clone(), none.clone()],
             approach: 0.0,
-            shift: match problem.drag {
-                Drag::Shift(shift) => shift,
-                Drag::Force(_) => [0.0; 2],
-            },
-        }
+            shift: problem.shift_or([0.0; 2]),
+        };
+        Self { held, raised: none }
     }
 
     /// The forces of a coarser grid, spread over the cells of a finer one.
     pub(super) fn refined(&self, coarse: &HalfSpaceProblem, fine: &HalfSpaceProblem) -> Self {
         let (from, to) = (coarse.operator.grid(), fine.operator.grid());
-        let ratio = [0, 1].map(|axis| to.cells[axis] / from.cells[axis]);
-        let share = 1.0 / (ratio[0] * ratio[1]) as f64;
-        let coarse_of = |cell: usize| {
-            let [column, row] = [cell % to.cells[0], cell / to.cells[0]];
-            column / ratio[0] + from.cells[0] * (row / ratio[1])
-        };
+        let (share, within) = (from.len() as f64 / to.len() as f64, to.within(from));
         let spread = |field: &[f64], share: f64| -> Vec<f64> {
-            (0..to.len())
-                .map(|cell| share * field[coarse_of(cell)])
-                .collect()
+            within.iter().map(|&cell| share * field[cell]).collect()
         };
-        let of_points = |values: &[f64]| self.contact.scatter(values, from.len());
-        let bound = spread(&of_points(&self.bound), share);
-        let contact = Points::select(to, |cell| bound[cell] > 0.0);
-        let on_contact =
-            |values: &Vec<f64>, share| contact.gather(&spread(&of_points(values), share));
+        let force = self.held.force.each_ref();
         Self {
-            pressing: spread(&self.pressing, share),
+            held: Held {
+                force: force.map(|part| spread(part, share)),
+                ..self.held
+            },
             raised: spread(&self.raised, 1.0),
-            rubbing: [0, 1].map(|axis| on_contact(&self.rubbing[axis], share)),
-            slip: [0, 1].map(|axis| on_contact(&self.slip[axis], 1.0)),
-            bound: contact.gather(&bound),
-            contact,
-            approach: self.approach,
-            shift: self.shift,
         }
-    }
-
-    /// Tangential forces on new contacts: slipping ones grow and shrink with their radius.
-    fn scaled(&self, contact: &Points, bound: &[f64]) -> Pair {
-        let mut force = [0, 1].map(|axis| contact.carry(&self.contact, &self.rubbing[axis]));
-        let before = contact.carry(&self.contact, &self.bound);
-        for at in 0..bound.len() {
-            let length = force[0][at].hypot(force[1][at]);
-            if length > 0.0 && length >= before[at] * (1.0 - ON_EDGE) {
-                force
-                    .iter_mut()
-                    .for_each(|part| part[at] *= bound[at] / length);
-            }
-        }
-        force
     }
 
     /// The iterate of a state given by the user; reactions that pull count as none.
     pub(super) fn near(problem: &HalfSpaceProblem, near: &HalfSpaceState) -> Self {
         let [normal, x, y] = near.reaction.clone();
         let pressing = normal.iter().map(|t_n| (-t_n).max(0.0)).collect();
-        let shift = match problem.drag {
-            Drag::Shift(shift) => shift,
-            Drag::Force(_) => near.shift,
+        let held = Held {
+            force: [pressing, x, y],
+            approach: near.approach,
+            shift: problem.shift_or(near.shift),
         };
-        let force = [pressing, x, y];
-        Self::of(problem, &Coupled::new(problem, force, near.approach, shift))
+        Self::of(problem, held)
+    }
+
+    /// The iterate of such forces; without a disc there is no friction.
+    pub(super) fn of(problem: &HalfSpaceProblem, mut held: Held) -> Self {
+        let (operator, cells) = (&problem.operator, problem.friction.len());
+        let [pressing, x, y] = &held.force;
+        let contact = problem.discs(pressing);
+        let rubbing = [contact.gather(x), contact.gather(y)];
+        let raised = operator.normal_of_tangential(&rubbing, &contact, operator.whole());
+        for (field, part) in held.force[1..].iter_mut().zip(&rubbing) {
+            *field = contact.scatter(part, cells);
+        }
+        Self { held, raised }
     }
 
     /// The iterate as Newton's method takes it, with fresh products.
     pub(super) fn coupled(&self, problem: &HalfSpaceProblem) -> Coupled {
-        let cells = problem.friction.len();
-        let [x, y] = [0, 1].map(|axis| self.contact.scatter(&self.rubbing[axis], cells));
-        Coupled::new(
-            problem,
-            [self.pressing.clone(), x, y],
-            self.approach,
-            self.shift,
-        )
-    }
-
-    /// The iterate of a state that Newton's method left.
-    pub(super) fn of(problem: &HalfSpaceProblem, state: &Coupled) -> Self {
-        let [pressing, x, y] = &state.force;
-        let radius = |cell: usize| problem.friction[cell] * pressing[cell];
-        let contact = Points::select(problem.operator.grid(), |cell| radius(cell) > 0.0);
-        let rubbing = [contact.gather(x), contact.gather(y)];
-        let whole = problem.operator.whole();
-        Self {
-            pressing: pressing.clone(),
-            raised: problem
-                .operator
-                .normal_of_tangential(&rubbing, &contact, whole),
-            bound: contact.cells().iter().map(|&cell| radius(cell)).collect(),
-            slip: [0, 1].map(|axis| contact.gather(&state.slip[axis])),
-            contact,
-            rubbing,
-            approach: state.approach,
-            shift: state.shift,
-        }
+        Coupled::new(problem, self.held.clone())
     }
 
     /// As the user sees it.
-    pub(super) fn state(&self, problem: &HalfSpaceProblem) -> HalfSpaceState {
-        let cells = problem.friction.len();
-        let [x, y] = [0, 1].map(|axis| self.contact.scatter(&self.rubbing[axis], cells));
+    pub(super) fn state(&self) -> HalfSpaceState {
+        let [pressing, x, y] = self.held.force.clone();
         HalfSpaceState {
             // Without negative zeros.
-            reaction: [self.pressing.iter().map(|p| 0.0 - p).collect(), x, y],
-            approach: self.approach,
-            shift: self.shift,
+            reaction: [pressing.iter().map(|p| 0.0 - p).collect(), x, y],
+            approach: self.held.approach,
+            shift: self.held.shift,
         }
     }
 }
 
 impl HalfSpaceProblem {
+    /// The shift that is given, or another.
+    fn shift_or(&self, other: [f64; 2]) -> [f64; 2] {
+        match self.drag {
+            Drag::Shift(shift) => shift,
+            Drag::Force(_) => other,
+        }
+    }
+
     /// The same problem on a grid half as fine, if there is one.
     pub(super) fn coarser(&self) -> Result<Option<Self>, Error> {
         let Some(operator) = self.operator.coarser() else {
             return Ok(None);
         };
         let (from, to) = (self.operator.grid(), operator.grid());
-        let ratio = [0, 1].map(|axis| from.cells[axis] / to.cells[axis]);
+        let (share, within) = (to.len() as f64 / from.len() as f64, from.within(to));
         let mean = |field: &[f64]| -> Vec<f64> {
-            let of = |cell: usize| {
-                let [column, row] = [cell % to.cells[0] * ratio[0], cell / to.cells[0] * ratio[1]];
-                let parts = (0..ratio[1]).flat_map(|j| (0..ratio[0]).map(move |i| (i, j)));
-                let sum: f64 = parts
-                    .map(|(i, j)| field[column + i + from.cells[0] * (row + j)])
-                    .sum();
-                sum / (ratio[0] * ratio[1]) as f64
-            };
-            (0..to.len()).map(of).collect()
+            let mut mean = vec![0.0; to.len()];
+            for (&cell, value) in within.iter().zip(field) {
+                mean[cell] += share * value;
+            }
+            mean
         };
-        let coarse = Self::new(
-            operator.clone(),
-            mean(&self.initial_gap),
-            &mean(&self.friction),
-            self.press,
-        )?;
-        let coarse = coarse.dragged(self.drag)?;
-        coarse
-            .after([0, 1].map(|axis| mean(&self.reference[axis])))
-            .map(Some)
+        let (gap, friction) = (mean(&self.initial_gap), mean(&self.friction));
+        let coarse = Self::new(operator.clone(), gap, &friction, self.press)?;
+        let reference = self.reference.each_ref().map(|part| mean(part));
+        coarse.dragged(self.drag)?.after(reference).map(Some)
     }
 
     /// Both half-steps; gives the residual of the laws at all contacts.
@@ -204,68 +135,90 @@ impl HalfSpaceProblem {
             constant: &constant,
             load,
         };
-        let pressed = half.solve(std::mem::take(&mut iterate.pressing), target);
-        iterate.approach = given + pressed.approach;
-        if !self.has_friction() {
-            iterate.pressing = pressed.force;
-            return pressed.residual;
+        let mut pressed = half.solve(iterate.held.force[0].clone(), target);
+        let mut of_friction = 0.0;
+        if self.has_friction() {
+            let raised;
+            (of_friction, raised) = self.rub(iterate, &pressed, target);
+            let mut gap = pressed.gap;
+            add(&mut gap, 1.0, &iterate.raised);
+            add(&mut gap, -1.0, &raised);
+            for (before, now) in iterate.raised.iter_mut().zip(&raised) {
+                *before += share * (now - *before);
+            }
+            pressed = half.measure(pressed.force, gap, pressed.points);
         }
-        let of_friction = self.rub(iterate, &pressed, target);
-        let (contact, whole) = (&iterate.contact, self.operator.whole());
-        let raised = self
-            .operator
-            .normal_of_tangential(&iterate.rubbing, contact, whole);
-        let mut gap = pressed.gap;
-        add(&mut gap, 1.0, &iterate.raised);
-        add(&mut gap, -1.0, &raised);
-        for (before, now) in iterate.raised.iter_mut().zip(&raised) {
-            *before += share * (now - *before);
-        }
-        let pressed = half.measure(pressed.force, gap, pressed.points);
-        iterate.pressing = pressed.force;
-        iterate.approach = given + pressed.approach;
+        iterate.held.force[0] = pressed.force;
+        iterate.held.approach = given + pressed.approach;
         pressed.residual.hypot(of_friction)
     }
 
-    /// The friction half-step under new pressing forces; gives its residual.
-    fn rub(&self, iterate: &mut Iterate, pressed: &Pressed, target: f64) -> f64 {
-        let radius = |cell: usize| self.friction[cell] * pressed.force[cell];
-        let contact = Points::select(self.operator.grid(), |cell| radius(cell) > 0.0);
-        let bound: Vec<f64> = contact.cells().iter().map(|&cell| radius(cell)).collect();
+    /// The friction half-step under new pressing forces; gives its residual, and what it lifts.
+    fn rub(&self, iterate: &mut Iterate, pressed: &Pressed, target: f64) -> (f64, Vec<f64>) {
+        let (operator, cells) = (&self.operator, self.friction.len());
+        let contact = self.discs(&pressed.force);
         if contact.is_empty() {
-            (iterate.rubbing, iterate.slip) = (zero_pair(0), zero_pair(0));
-            (iterate.contact, iterate.bound) = (contact, bound);
-            return 0.0;
+            iterate.held.force[1..]
+                .iter_mut()
+                .for_each(|part| part.fill(0.0));
+            return (0.0, vec![0.0; cells]);
         }
-        let mut force = iterate.scaled(&contact, &bound);
+        let (bound, force) = self.scaled(iterate, &contact, &pressed.force);
         let pressing = pressed.points.gather(&pressed.force);
-        let mut constant = self
-            .operator
-            .tangential_of_normal(&pressing, &pressed.points, &contact);
-        for (part, reference) in constant.iter_mut().zip(&self.reference) {
+        let mut constant = operator.tangential_of_normal(&pressing, &pressed.points, &contact);
+        let given = self.reference.iter().zip(iterate.held.shift);
+        for (part, (reference, shift)) in constant.iter_mut().zip(given) {
             for (entry, &cell) in part.iter_mut().zip(contact.cells()) {
-                *entry = -*entry - reference[cell];
+                *entry = -*entry - reference[cell] - shift;
             }
         }
-        if let (Drag::Force(wanted), true) = (self.drag, iterate.contact.is_empty()) {
-            force = spread(wanted, &bound);
-            let product = self.operator.tangential(&force, &contact, &contact);
-            iterate.shift = mean_slip([&product, &constant], &bound);
-        }
-        for (part, shift) in constant.iter_mut().zip(iterate.shift) {
-            part.iter_mut().for_each(|entry| *entry -= shift);
-        }
-        let half = FrictionHalfStep {
-            operator: &self.operator,
+        let mut half = FrictionHalfStep {
+            operator,
             points: &contact,
             bound: &bound,
-            constant: &constant,
+            constant,
             scale: norm(&pressing).hypot(norm_pair(&force)),
         };
-        let rubbed = half.solve(force, target);
-        (iterate.rubbing, iterate.slip) = (rubbed.force, rubbed.slip);
-        (iterate.contact, iterate.bound) = (contact, bound);
-        rubbed.residual
+        let rubbed = match self.drag {
+            Drag::Shift(_) => half.solve(force, target),
+            Drag::Force(wanted) => {
+                let (rubbed, moved) = half.solve_under(wanted, force, target);
+                iterate.held.shift = [0, 1].map(|axis| iterate.held.shift[axis] + moved[axis]);
+                rubbed
+            }
+        };
+        let raised = operator.normal_of_tangential(&rubbed.force, &contact, operator.whole());
+        for (field, part) in iterate.held.force[1..].iter_mut().zip(&rubbed.force) {
+            *field = contact.scatter(part, cells);
+        }
+        (rubbed.residual, raised)
+    }
+
+    /// Cells whose disc has a radius under such pressing forces.
+    fn discs(&self, pressing: &[f64]) -> Points {
+        Points::select(self.operator.grid(), |cell| {
+            self.friction[cell] * pressing[cell] > 0.0
+        })
+    }
+
+    /// Radii of new contacts, and their tangential forces: slipping ones grow and shrink with the radius.
+    fn scaled(&self, iterate: &Iterate, contact: &Points, pressing: &[f64]) -> (Vec<f64>, Pair) {
+        let radii = |pressing: &[f64]| -> Vec<f64> {
+            let of = |&cell: &usize| self.friction[cell] * pressing[cell];
+            contact.cells().iter().map(of).collect()
+        };
+        let [pressed, x, y] = &iterate.held.force;
+        let (before, bound) = (radii(pressed), radii(pressing));
+        let mut force = [contact.gather(x), contact.gather(y)];
+        for at in 0..bound.len() {
+            let length = force[0][at].hypot(force[1][at]);
+            if length > 0.0 && length >= before[at] * (1.0 - ON_EDGE) {
+                force
+                    .iter_mut()
+                    .for_each(|part| part[at] *= bound[at] / length);
+            }
+        }
+        (bound, force)
     }
 
     /// What a given force lacks, relative to what friction can carry, and by how much it exceeds that.
@@ -273,74 +226,12 @@ impl HalfSpaceProblem {
         let Drag::Force([x, y]) = self.drag else {
             return [0.0; 2];
         };
-        let most = total(&iterate.bound);
-        let missing = (x - total(&iterate.rubbing[0])).hypot(y - total(&iterate.rubbing[1]));
+        let most = dot(&self.friction, &iterate.held.force[0]);
+        let missing = (x - total(&iterate.held.force[1])).hypot(y - total(&iterate.held.force[2]));
         let wanted = x.hypot(y);
         match missing > 0.0 {
             true => [missing / most.max(wanted), (wanted - most) / wanted],
             false => [0.0; 2],
         }
     }
-
-    /// Moves the other side by what the missing force takes, and the contacts with it.
-    pub(super) fn aim(&self, iterate: &mut Iterate) {
-        let Drag::Force([x, y]) = self.drag else {
-            return;
-        };
-        let half = FrictionHalfStep {
-            operator: &self.operator,
-            points: &iterate.contact,
-            bound: &iterate.bound,
-            constant: &iterate.slip,
-            scale: 1.0,
-        };
-        let state = Rubbed::new(iterate.rubbing.clone(), iterate.slip.clone());
-        let tangent = half.tangent(&state);
-        let contacts = iterate.contact.len();
-        let steps = [0, 1].map(|axis| {
-            let mut unit = zero_pair(contacts);
-            unit[axis].fill(1.0);
-            half.newton(&tangent, unit, STIFFNESS).0
-        });
-        let missing = [
-            x - total(&iterate.rubbing[0]),
-            y - total(&iterate.rubbing[1]),
-        ];
-        let [[k_xx, k_yx], [k_xy, k_yy]] =
-            [0, 1].map(|axis| [0, 1].map(|row| total(&steps[axis][row])));
-        let determinant = k_xx * k_yy - k_xy * k_yx;
-        if determinant.is_nan() || determinant <= 1e-12 * k_xx * k_yy {
-            return;
-        }
-        let moved = [
-            (k_yy * missing[0] - k_xy * missing[1]) / determinant,
-            (k_xx * missing[1] - k_yx * missing[0]) / determinant,
-        ];
-        let slips = (0..contacts).map(|at| iterate.slip[0][at].hypot(iterate.slip[1][at]));
-        let longest = FARTHEST * slips.fold(0.0, f64::max) / moved[0].hypot(moved[1]);
-        let moved = moved.map(|part| part * longest.min(1.0));
-        for axis in 0..2 {
-            iterate.shift[axis] += moved[axis];
-            add_pair(&mut iterate.rubbing, moved[axis], &steps[axis]);
-        }
-    }
-}
-
-/// A force spread over the contacts like their radii, each at most on its edge.
-fn spread(wanted: [f64; 2], bound: &[f64]) -> Pair {
-    let most = total(bound).max(wanted[0].hypot(wanted[1]));
-    wanted.map(|wanted| bound.iter().map(|bound| wanted * bound / most).collect())
-}
-
-/// Mean over the contacts, weighted by their radii, of the sum of two displacements.
-fn mean_slip(parts: [&Pair; 2], bound: &[f64]) -> [f64; 2] {
-    let most = total(bound);
-    [0, 1].map(|axis| {
-        let weighted = |at: usize| bound[at] * (parts[0][axis][at] + parts[1][axis][at]);
-        if most > 0.0 {
-            sum(bound.len(), weighted) / most
-        } else {
-            0.0
-        }
-    })
 }

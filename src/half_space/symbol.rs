@@ -54,11 +54,8 @@ impl Symbols {
                 half_transform(&row, padded[0], ODD[kernel][0])
             });
             let rows: Vec<Vec<f64>> = rows.collect();
-            let sign = if ODD[kernel] == [true, true] {
-                -1.0
-            } else {
-                1.0
-            };
+            let odd = ODD[kernel] == [true, true];
+            let sign = if odd { -1.0 } else { 1.0 };
             let scale = sign / (padded[0] * padded[1]) as f64;
             let columns = (0..waves).into_par_iter().flat_map_iter(|wave| {
                 let column: Vec<f64> = rows.iter().map(|row| scale * row[wave]).collect();
@@ -111,10 +108,8 @@ impl Symbols {
             let positive = kernel.iter().filter(|value| **value > 0.0);
             positive.fold(f64::INFINITY, |least, value| least.min(*value))
         };
-        let floors = [
-            least(&kernels[0]),
-            least(&kernels[1]).min(least(&kernels[2])),
-        ];
+        let tangential = least(&kernels[1]).min(least(&kernels[2]));
+        let floors = [least(&kernels[0]), tangential];
         Self {
             kernels,
             padded,
@@ -137,12 +132,9 @@ impl Symbols {
     /// Means over all waves of NN, xx, yy: the diagonal of a periodic operator.
     pub(super) fn means(&self) -> [f64; 3] {
         let [waves, rows] = self.padded.map(|length| length / 2 + 1);
-        let twice = |axis: usize, at: usize| {
-            if at == 0 || 2 * at == self.padded[axis] {
-                1.0
-            } else {
-                2.0
-            }
+        let twice = |axis: usize, at: usize| match at == 0 || 2 * at == self.padded[axis] {
+            true => 1.0,
+            false => 2.0,
         };
         [0, 1, 2].map(|kernel| {
             let all = (0..waves * rows).map(|at| (at / rows, at % rows, self.kernels[kernel][at]));

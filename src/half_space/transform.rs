@@ -33,15 +33,9 @@ pub(super) struct Transforms {
     row_back: Arc<dyn ComplexToReal<f64>>,
     column_forward: Arc<dyn Fft<f64>>,
     column_back: Arc<dyn Fft<f64>>,
-    /// As many as there were applications at one time.
-    spaces: Mutex<Vec<Workspace>>,
+    /// Spectrum and what returns of it, as many as there were applications at one time.
+    spaces: Mutex<Vec<[Vec<Wave>; 2]>>,
     done: AtomicUsize,
-}
-
-#[derive(Default)]
-struct Workspace {
-    spectrum: Vec<Wave>,
-    returned: Vec<Wave>,
 }
 
 /// What is convolved with what: components are normal, x, y.
@@ -56,10 +50,7 @@ impl Convolution<'_> {
     /// Components that go in, and those that come out.
     fn components(&self) -> [Vec<usize>; 2] {
         let of = |there: [bool; 3]| (0..3).filter(|&c| there[c]).collect();
-        [
-            of(self.inputs.map(|input| input.is_some())),
-            of(self.outputs),
-        ]
+        [self.inputs.map(|input| input.is_some()), self.outputs].map(of)
     }
 }
 
@@ -98,7 +89,7 @@ impl Transforms {
         self.done
             .fetch_add(inputs.len() + outputs.len(), Ordering::Relaxed);
         let mut space = self.spaces().pop().unwrap_or_default();
-        let Workspace { spectrum, returned } = &mut space;
+        let [spectrum, returned] = &mut space;
         let blocks = self.waves().div_ceil(BLOCK);
         grow(spectrum, inputs.len() * self.cells[1] * self.waves());
         grow(returned, outputs.len() * self.cells[1] * blocks * BLOCK);
@@ -119,7 +110,7 @@ impl Transforms {
     }
 
     /// A panic elsewhere leaves numbers that are overwritten here.
-    fn spaces(&self) -> MutexGuard<'_, Vec<Workspace>> {
+    fn spaces(&self) -> MutexGuard<'_, Vec<[Vec<Wave>; 2]>> {
         self.spaces.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -128,10 +119,8 @@ impl Transforms {
         let lines = spectrum.par_chunks_mut(waves).take(inputs.len() * rows);
         lines.enumerate().for_each_init(
             || {
-                (
-                    self.row_forward.make_input_vec(),
-                    self.row_forward.make_scratch_vec(),
-                )
+                let plan = &self.row_forward;
+                (plan.make_input_vec(), plan.make_scratch_vec())
             },
             |(line, scratch), (task, spectrum)| {
                 let (component, row) = (inputs[task / rows], task % rows);
@@ -145,9 +134,8 @@ impl Transforms {
                     line[column] = *value;
                 }
                 // Lengths are the plan's own: nothing can fail.
-                let _ = self
-                    .row_forward
-                    .process_with_scratch(line, spectrum, scratch);
+                let plan = &self.row_forward;
+                let _ = plan.process_with_scratch(line, spectrum, scratch);
             },
         );
     }
@@ -168,11 +156,8 @@ impl Transforms {
             tasks.filter(|(_, part)| !part.is_empty()).for_each_init(
                 || {
                     let plan = &self.row_back;
-                    (
-                        plan.make_input_vec(),
-                        plan.make_output_vec(),
-                        plan.make_scratch_vec(),
-                    )
+                    let (waves, line) = (plan.make_input_vec(), plan.make_output_vec());
+                    (waves, line, plan.make_scratch_vec())
                 },
                 |(waves, line, scratch), (row, part)| {
                     let size = outputs.len() * rows * BLOCK;
@@ -249,28 +234,16 @@ impl<'a> Columns<'a> {
         let first = block * BLOCK;
         for column in 0..BLOCK.min(plans.waves() - first) {
             let at = column * length..(column + 1) * length;
-            let part = |values: &mut Vec<Wave>, scratch: &mut [Wave], plan: &dyn Fft<f64>| {
-                plan.process_with_scratch(&mut values[at.clone()], scratch);
-            };
+            let parts = self.values.each_mut();
+            let mut parts = parts.map(|values| &mut values[at.clone()]);
             for &input in inputs {
-                part(
-                    &mut self.values[input],
-                    &mut self.scratch,
-                    &*plans.column_forward,
-                );
+                let plan = &plans.column_forward;
+                plan.process_with_scratch(parts[input], &mut self.scratch);
             }
-            let [normal, x, y] = &mut self.values;
-            let at = at.clone();
-            mix(
-                first + column,
-                [&mut normal[at.clone()], &mut x[at.clone()], &mut y[at]],
-            );
+            mix(first + column, parts.each_mut().map(|part| &mut **part));
             for &output in outputs {
-                part(
-                    &mut self.values[output],
-                    &mut self.scratch,
-                    &*plans.column_back,
-                );
+                let plan = &plans.column_back;
+                plan.process_with_scratch(parts[output], &mut self.scratch);
             }
         }
     }

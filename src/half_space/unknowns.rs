@@ -34,43 +34,20 @@ impl Compliance for HalfSpace {
     }
 
     fn precondition(&self, on: &[usize], residual: &[f64]) -> Vec<f64> {
-        let (points, forces) = self.spread(on, residual);
-        let [normal, x, y] = forces;
+        let cells = self.grid().len();
+        let mut chosen = vec![false; cells];
+        let mut forces = [0, 1, 2].map(|_| vec![0.0; cells]);
+        for (&unknown, value) in on.iter().zip(residual) {
+            chosen[unknown / 3] = true;
+            forces[unknown % 3][unknown / 3] = *value;
+        }
+        let points = Points::select(self.grid(), |cell| chosen[cell]);
+        let [normal, x, y] = forces.map(|force| points.gather(&force));
         let normal = self.inverse_normal(&normal, &points);
         let [x, y] = self.inverse_tangential(&[x, y], &points);
-        gather(on, &points, &[normal, x, y])
+        let moved = [normal, x, y].map(|part| points.scatter(&part, cells));
+        on.iter().map(|at| moved[at % 3][at / 3]).collect()
     }
-
-    fn apply_block(&self, to: &[usize], of: &[usize], force: &[f64]) -> Vec<f64> {
-        let ((from, forces), (points, _)) = (self.spread(of, force), self.spread(to, &[]));
-        let moved = self.full([&forces[0], &forces[1], &forces[2]], &from, &points);
-        gather(to, &points, &moved)
-    }
-}
-
-impl HalfSpace {
-    /// Cells of some unknowns in rising order, and values of these unknowns there, by direction.
-    fn spread(&self, unknowns: &[usize], values: &[f64]) -> (Points, [Vec<f64>; 3]) {
-        let mut chosen = vec![false; self.grid().len()];
-        unknowns.iter().for_each(|at| chosen[at / 3] = true);
-        let points = Points::select(self.grid(), |cell| chosen[cell]);
-        let mut parts = [0, 1, 2].map(|_| vec![0.0; points.len()]);
-        for (&unknown, value) in unknowns.iter().zip(values) {
-            if let Ok(at) = points.cells().binary_search(&(unknown / 3)) {
-                parts[unknown % 3][at] = *value;
-            }
-        }
-        (points, parts)
-    }
-}
-
-/// What some unknowns have of fields on their cells.
-fn gather(unknowns: &[usize], points: &Points, parts: &[Vec<f64>; 3]) -> Vec<f64> {
-    let of = |&unknown: &usize| {
-        let at = points.cells().binary_search(&(unknown / 3));
-        at.map_or(0.0, |at| parts[unknown % 3][at])
-    };
-    unknowns.iter().map(of).collect()
 }
 
 impl HalfSpaceProblem {

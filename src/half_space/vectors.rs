@@ -33,6 +33,15 @@ pub(super) fn total(vector: &[f64]) -> f64 {
     sum(vector.len(), |at| vector[at])
 }
 
+/// The largest of numbers that are not negative.
+pub(super) fn largest<'a>(values: impl IntoIterator<Item = &'a f64>) -> f64 {
+    values.into_iter().copied().fold(0.0, f64::max)
+}
+
+pub(super) fn scaled(vector: &[f64], factor: f64) -> Vec<f64> {
+    vector.iter().map(|entry| factor * entry).collect()
+}
+
 /// `to += factor · from`.
 pub(super) fn add(to: &mut [f64], factor: f64, from: &[f64]) {
     let pairs = to.par_chunks_mut(CHUNK).zip(from.par_chunks(CHUNK));

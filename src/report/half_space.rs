@@ -58,6 +58,11 @@ pub struct HalfSpaceStep {
     pub largest_cluster: f64,
     /// Largest pressure, in Pa.
     pub peak_pressure: f64,
+    /// Cells at the border of a grid that is not periodic that press.
+    pub at_border: usize,
+    /// What to know before the numbers are used, such as that the grid is too small.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub notes: Vec<String>,
     /// Outer iterations.
     pub outer: usize,
     /// Applications of G.
@@ -113,6 +118,8 @@ impl HalfSpaceStep {
             clusters: found.len(),
             largest_cluster: found.first().map_or(0.0, |cells| *cells as f64 * area),
             peak_pressure: normal.iter().fold(0.0_f64, |most, t_n| most.max(-t_n)) / area,
+            at_border: outcome.at_border,
+            notes: at_border(outcome.at_border).into_iter().collect(),
             outer: outcome.work.outer,
             applications: outcome.work.applications(),
             rolled,
@@ -127,6 +134,7 @@ impl HalfSpaceStep {
             ("stick", self.stick),
             ("slip", self.slip),
             ("clusters", self.clusters),
+            ("at_border", self.at_border),
         ];
         let numbers = [
             ("load", self.load),
@@ -207,9 +215,24 @@ impl HalfSpaceReport {
                     ", steady after {n} cells of rolling"
                 )),
             );
+            for note in &step.notes {
+                let _ = writeln!(text, "  note: {note}");
+            }
         }
         text
     }
+}
+
+/// The note on contact that reaches the border of the grid.
+fn at_border(cells: usize) -> Option<String> {
+    let (several, press) = if cells == 1 { ("", "es") } else { ("s", "") };
+    (cells > 0).then(|| {
+        format!(
+            "{cells} cell{several} at the border of the grid press{press}: the contact is cut off there and \
+             pressures near it are wrong; enlarge `half_space.size`, with as many more `cells`, unless the \
+             body ends with the grid"
+        )
+    })
 }
 
 /// Pressure and shear in Pa, gap and slip in metre, at every cell.

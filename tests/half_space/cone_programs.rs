@@ -1,8 +1,11 @@
 //! The same contacts with a matrix, solved by the cone programs.
 
+use std::sync::Arc;
+
 use dpana::alternation::{Settings, Status, solve};
 use dpana::half_space::{
-    Drag, HalfSpaceCertificate, HalfSpaceProblem, HalfSpaceStatus, Press, SelfAffine, Surroundings,
+    Drag, HalfSpace, HalfSpaceCertificate, HalfSpaceProblem, HalfSpaceStatus, Press, SelfAffine,
+    Surroundings,
 };
 use dpana::problem::Compliance;
 
@@ -26,13 +29,13 @@ fn agree(problem: &HalfSpaceProblem) -> HalfSpaceCertificate {
     free_of_matrix.certificate
 }
 
-#[test]
-fn both_find_the_same_reactions() {
-    let space = half_space([12, 11], [1.0; 2], Surroundings::Free, RUBBER);
+/// A rough bowl on so many cells.
+fn rough_bowl(cells: [usize; 2], cut_off: f64) -> (Arc<HalfSpace>, Vec<f64>) {
+    let space = half_space(cells, [1.0; 2], Surroundings::Free, RUBBER);
     let surface = SelfAffine {
         hurst: 0.8,
         roll_off: 0.5,
-        cut_off: 0.25,
+        cut_off,
         slope: 0.05,
         seed: 2,
     };
@@ -44,14 +47,34 @@ fn both_find_the_same_reactions() {
         .map(|(bowl, h)| bowl - h)
         .collect();
     let least = gap.iter().fold(f64::INFINITY, |least, gap| least.min(*gap));
+    (space, gap.iter().map(|gap| gap - least).collect())
+}
+
+#[test]
+fn both_find_the_same_reactions() {
+    let (space, gap) = rough_bowl([12, 11], 0.25);
     for (mu, shift) in [(0.0, [0.0; 2]), (0.3, [4e-3, 2e-3]), (0.8, [0.0, -0.02])] {
-        let approach = 0.03 + least;
-        let press = Press::Approach(approach);
+        let press = Press::Approach(0.03);
         let problem = HalfSpaceProblem::new(space.clone(), gap.clone(), &[mu], press).unwrap();
         let problem = problem.dragged(Drag::Shift(shift)).unwrap();
         let kinds = agree(&problem);
         // A contact whose friction does not matter: some slip, some stick, some are open.
         assert!(kinds.open > 10 && (mu == 0.0 || (kinds.stick > 0 && kinds.slip > 0)));
+    }
+}
+
+#[test]
+#[ignore = "slow: run in release"]
+fn both_find_the_same_reactions_at_a_thousand_contacts() {
+    let (space, gap) = rough_bowl([32, 32], 0.125);
+    for (mu, shift) in [(0.0, [0.0; 2]), (0.3, [4e-3, 2e-3])] {
+        let press = Press::Approach(0.06);
+        let problem = HalfSpaceProblem::new(space.clone(), gap.clone(), &[mu], press).unwrap();
+        let problem = problem.dragged(Drag::Shift(shift)).unwrap();
+        let start = std::time::Instant::now();
+        let kinds = agree(&problem);
+        println!("{mu}: {kinds:?} {:?}", start.elapsed());
+        assert!(kinds.open > 10 && (mu == 0.0 || (kinds.stick > 100 && kinds.slip > 100)));
     }
 }
 

@@ -7,6 +7,7 @@ mod program;
 mod answers;
 mod cone_programs;
 mod grids;
+mod histories;
 mod published;
 mod rolling;
 mod scenes;

@@ -49,6 +49,43 @@ fn the_shipped_history_is_certified_and_remembers_its_slip() {
 }
 
 #[test]
+fn contact_that_reaches_the_border_of_a_free_grid_is_noted() {
+    let punch = r#"{"flat_punch": {"radius": 2}}"#;
+    let strip = BALL
+        .replace("sphere", "paraboloid")
+        .replace("radius", "radius_x");
+    for (surface, more, cells) in [
+        // A ball that stays inside, that reaches the middle of every side, that touches everywhere.
+        (BALL, r#", "approach": 0.02"#, 0),
+        (BALL, r#", "approach": 0.0215"#, 8),
+        (BALL, r#", "approach": 0.2"#, 60),
+        // A cylinder along y touches two sides, a punch that ends with the grid none beyond it.
+        (&*strip, r#", "approach": 1e-3"#, 8),
+        (punch, r#", "approach": 1e-3"#, 0),
+    ] {
+        let scene = scene(&sphere(surface, more)).unwrap();
+        let mut found = Vec::new();
+        let report = solve_half_space(&scene, |_, _, outcome| {
+            found.push(outcome.at_border);
+            Ok(())
+        });
+        let report = report.unwrap();
+        assert_eq!(found, [cells], "{surface} {more}");
+        let note = format!("note: {cells} cells at the border of the grid press: ");
+        assert_eq!(report.summary().contains(&note), cells > 0);
+        assert_eq!(
+            report.to_json().contains("enlarge `half_space.size`"),
+            cells > 0
+        );
+        assert_eq!(report.table().column("at_border").unwrap(), [cells as f64]);
+    }
+    let periodic =
+        sphere(BALL, r#", "load": 10"#).replace("[1, 1]", r#"[1, 1], "surroundings": "periodic""#);
+    let report = solve_half_space(&scene(&periodic).unwrap(), |_, _, _| Ok(())).unwrap();
+    assert!(report.steps[0].open == 0 && report.steps[0].notes.is_empty());
+}
+
+#[test]
 fn every_shipped_scene_is_sound() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/half_space");
     let files = fs::read_dir(folder)
