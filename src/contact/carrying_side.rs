@@ -45,8 +45,7 @@ pub(super) fn carrying<'a>(
     }
     let of_first = Coverage::new(first, second, place)?;
     let ends = of_first.ends();
-    let [own, across] = of_first.nodes_met().map(|nodes| nodes as f64);
-    let finer = across > own * MUCH_FINER.powi(first.mesh.dimension as i32 - 1);
+    let finer = of_first.finer_across() > MUCH_FINER;
     if ends.facets == 0 && !finer || young[1] > MUCH_STIFFER * young[0] {
         return Ok((of_first, false));
     }

@@ -82,7 +82,10 @@ pub fn half_space_cases(
         let found = step.row().into_iter().filter(given_once);
         let stiffness = [("stiffness".to_owned(), stiffness)];
         table.add(given.chain(found).chain(stiffness));
-        near = (outcome.status == HalfSpaceStatus::Certified).then_some(outcome);
+        // What slides as a whole may be anywhere.
+        let most = scene.half_space.size[0].max(scene.half_space.size[1]);
+        let here = outcome.state.shift.iter().all(|shift| shift.abs() <= most);
+        near = (here && outcome.status == HalfSpaceStatus::Certified).then_some(outcome);
         done(number + 1, cases.len());
     }
     Ok(table)

@@ -33,7 +33,7 @@ pub struct SceneContact {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub against: Option<SceneSurface>,
     /// It may touch itself, where facets of the group face each other within this distance, apart or
-    /// in each other, `> 0` in the unit of length, and share no node.
+    /// in each other, `> 0` in the unit of length; the two sides of a wall do not face each other.
     #[cfg_attr(feature = "cli", schemars(extend("exclusiveMinimum" = 0)))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub against_itself: Option<f64>,

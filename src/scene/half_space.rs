@@ -80,7 +80,7 @@ pub struct SceneHalfSpace {
     pub other: Option<SceneHalf>,
     /// Cells along x and y.
     pub cells: [usize; 2],
-    /// Sides of the grid, in metre; along y one metre counts for a plane.
+    /// Sides of the grid, in metre; along y 1 for a plane, whose forces are per metre.
     pub size: [f64; 2],
     /// `free` if left out, `periodic` or `plane`.
     #[serde(default)]
@@ -253,6 +253,13 @@ impl HalfSpaceScene {
 
     fn build(&self) -> Result<HalfSpaceHistory, Error> {
         let SceneHalfSpace { cells, size, .. } = self.half_space;
+        if self.half_space.surroundings == SceneSurroundings::Plane && size[1] != 1.0 {
+            return Err(Error::NotAccepted {
+                place: "half_space.size[1]".to_owned(),
+                found: size[1].to_string(),
+                accepted: "1 for a plane, whose forces are per metre along y".to_owned(),
+            });
+        }
         let spacing = [0, 1].map(|axis| size[axis] / cells[axis].max(1) as f64);
         let grid = Grid::new(cells, spacing)?;
         let half = |half: SceneHalf| ElasticHalf {

@@ -240,13 +240,18 @@ impl<'a> Coverage<'a> {
         across.dedup();
         [(0..self.one.facets.len()).filter(own).collect(), across]
     }
-    /// Number of nodes on the facets of either side that meet at all.
-    pub(in crate::contact) fn nodes_met(&self) -> [usize; 2] {
+    /// How many times as long as those of side 2 the facets of side 1 are, about, where they meet: by the nodes there.
+    pub(in crate::contact) fn finer_across(&self) -> f64 {
         let sides = [self.one, self.two].into_iter().zip(self.met());
         let mut counts = sides.map(|(side, facets)| {
             let of_facets = facets.iter().flat_map(|facet| &side.facets[*facet].nodes);
-            of_facets.collect::<HashSet<_>>().len()
+            of_facets.collect::<HashSet<_>>().len() as f64
         });
-        std::array::from_fn(|_| counts.next().unwrap_or_default())
+        let (own, across) = (counts.next(), counts.next());
+        let ratio = across.unwrap_or_default() / own.unwrap_or_default().max(1.0);
+        match self.one.mesh.dimension {
+            2 => ratio,
+            _ => ratio.sqrt(),
+        }
     }
 }
