@@ -46,7 +46,7 @@ impl Run<'_> {
             };
             if let Some(Equilibrium::Impossible { motion, excess }) = found {
                 self.failure = self.believe(&contacts, floating, motion, excess);
-            } else if let (false, Some(motion)) = (laws.is_empty(), self.doubted.take()) {
+            } else if let Some(motion) = self.doubted.clone() {
                 let (motion, _) = contacts.at_unit_speed(motion, floating.load());
                 let missing = self
                     .proof(floating, &motion)
@@ -67,7 +67,8 @@ impl Run<'_> {
                 self.record.coulomb_iterations = solution.iterations;
                 self.work.cone_iterations += solution.iterations;
                 self.work.coulomb_programs += 1;
-                self.doubted = (solution.remainder > UNHELD).then_some(solution.multipliers);
+                let doubted = self.problem.laws().is_some() && solution.remainder > UNHELD;
+                self.doubted = doubted.then_some(solution.multipliers);
                 self.state.reaction = solution.reaction;
                 self.state.motion = Motion::of(solution.motion);
             }
@@ -125,7 +126,8 @@ impl Run<'_> {
             opening: apparent.opening,
             motion,
             missing,
-            elastic: true,
+            // What the program could not hold rigid bodies may not hold either.
+            elastic: self.doubted.is_none(),
         })
     }
 

@@ -263,6 +263,11 @@ impl Law {
         &self.directions[..self.free]
     }
 
+    /// Whether its gap is closed: friction may need no pressure.
+    pub(super) fn is_closed(&self) -> bool {
+        self.on_displacement[0] != [0.0; 3]
+    }
+
     /// Whether its contact does not move, whatever it carries.
     pub(super) fn sticks(&self) -> bool {
         self.on_reaction == [[0.0; 3]; 3] && self.on_displacement == UNITS && self.bound.is_none()

@@ -120,9 +120,10 @@ impl Run<'_> {
         (left, if stands { times + 1 } else { 0 })
     }
 
-    /// Whether the best state is one that bodies ran off to.
+    /// Whether the best state is one that bodies ran off to; where nothing acts any place is as good.
     pub(super) fn has_run_off(&self) -> bool {
-        self.problem.floating().is_some() && {
+        let acts = self.best.reaction.iter().any(|t| *t != 0.0);
+        self.problem.floating().is_some() && acts && {
             let [reach, moved] = self.reach(&self.best);
             moved > BEYOND * reach
         }
@@ -220,8 +221,11 @@ mod tests {
         let mut run = Run::new(&problem, &settings);
         for (motion, far) in [(0.2, false), (-1e6, false), (1e9, true)] {
             let judge = Judge::new(&problem);
-            run.best = Iterate::new(&judge, vec![0.0; 2], Motion::of(vec![motion]));
+            run.best = Iterate::new(&judge, vec![-0.25, 0.0], Motion::of(vec![motion]));
             assert_eq!(run.has_run_off(), far, "{motion:e}");
+            // Where nothing acts it may be anywhere.
+            run.best = Iterate::new(&judge, vec![0.0; 2], Motion::of(vec![motion]));
+            assert!(!run.has_run_off());
         }
     }
 

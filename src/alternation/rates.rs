@@ -287,7 +287,7 @@ impl<'a> Linearised<'a> {
             return None;
         }
         self.finish.add(&mut at, &system.laws, &solution);
-        for law in &system.laws {
+        for law in system.laws.iter().filter(|law| law.is_closed()) {
             // But for rounding.
             at.beyond[law.block.start] = 0.0;
         }

@@ -5,7 +5,8 @@
 //! ```
 //!
 //! The two sides of a wall do not face each other. Of one skin, facets that face each
-//! other are put on two sides so that neighbours are on the same one. Of two skins, facets that face the other one are
+//! other are put on two sides so that neighbours are on the same one. What lies over each other by no more than bodies are
+//! in each other is a part of their overlap, and no face. Of two skins, facets that face the other one are
 //! put together as far as they run on without a corner.
 //!
 //! c and n: centre and outward normal of a facet. Facets lie in a grid of boxes as large as the largest of them, so that each is
@@ -24,8 +25,22 @@ const OPPOSED: f64 = -0.5;
 /// Component of the direction across beyond which facets may be apart along an axis.
 const LEANING: f64 = 0.5;
 
+/// Part of a wall from which a face as deep behind another one is its far side: facets are compared by their middles.
+const WALL: f64 = 0.5;
+
+/// Faces lie over each other by more than so many times what they are in each other.
+const WIDE: f64 = 2.0;
+
 /// Part of a facet by which two must overlap.
 const ROUND_OFF: f64 = 1e-6;
+
+/// Two facets that face each other.
+struct Facing {
+    sides: [usize; 2],
+    across: Vector3<f64>,
+    /// How far they are in each other, in metre.
+    depth: f64,
+}
 
 /// A facet of a skin.
 struct Side {
@@ -42,14 +57,16 @@ struct Side {
 pub(crate) fn facing_skins(bodies: [&Body; 2], distance: f64) -> Vec<[Vec<Facet>; 2]> {
     let [first, second] = bodies.map(|body| skin(body, body.mesh.boundary_facets()));
     let overlaps = Overlaps::new(&bodies[0].mesh, &bodies[1].mesh);
-    let pairs = facing(&first, &second, distance, &overlaps).into_iter();
+    let mut pairs = facing(&first, &second, distance, &overlaps);
     let own = first.len();
-    let pairs: Vec<[usize; 2]> = pairs.map(|[a, b]| [a, own + b]).collect();
+    pairs.iter_mut().for_each(|pair| pair.sides[1] += own);
     let sides: Vec<Side> = first.into_iter().chain(second).collect();
     // A facet of one body only ever faces one of the other.
     let parts = parts(&sides, &pairs, |side| side >= own).unwrap_or_default();
-    parts
+    let faces = parts
         .into_iter()
+        .filter(|part| are_wide(part, &sides, &pairs));
+    faces
         .map(|part| part.map(|side| facets(&sides, side)))
         .collect()
 }
@@ -64,7 +81,7 @@ pub(crate) fn facing_itself(
     let sides = skin(body, facets_of_skin);
     let overlaps = Overlaps::new(&body.mesh, &body.mesh);
     let mut pairs = facing(&sides, &sides, distance, &overlaps);
-    pairs.retain(|[a, b]| a < b);
+    pairs.retain(|pair| pair.sides[0] < pair.sides[1]);
     let mut found = [Vec::new(), Vec::new()];
     for part in parts(&sides, &pairs, |_| false)? {
         for (all, side) in found.iter_mut().zip(part) {
@@ -84,16 +101,18 @@ fn facets(sides: &[Side], numbers: Vec<usize>) -> Vec<Facet> {
 /// facet is of the second of two meshes.
 fn parts(
     sides: &[Side],
-    pairs: &[[usize; 2]],
+    pairs: &[Facing],
     of_second: impl Fn(usize) -> bool,
 ) -> Option<Vec<[Vec<usize>; 2]>> {
-    let faced: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
+    let faced: BTreeSet<usize> = pairs.iter().flat_map(|pair| pair.sides).collect();
     let mut links: BTreeMap<usize, Vec<(usize, bool)>> = BTreeMap::new();
     let mut link = |a: usize, b: usize, turns: bool| {
         links.entry(a).or_default().push((b, turns));
         links.entry(b).or_default().push((a, turns));
     };
-    pairs.iter().for_each(|&[a, b]| link(a, b, true));
+    pairs
+        .iter()
+        .for_each(|pair| link(pair.sides[0], pair.sides[1], true));
     let mut at_node: HashMap<(bool, usize), Vec<usize>> = HashMap::new();
     for &facet in &faced {
         for node in &sides[facet].facet.nodes {
@@ -131,13 +150,37 @@ fn parts(
     Some(parts)
 }
 
+/// Whether the two sides of a part lie over each other by more than a part of their overlap.
+fn are_wide([one, other]: &[Vec<usize>; 2], sides: &[Side], pairs: &[Facing]) -> bool {
+    let of_part = pairs
+        .iter()
+        .filter(|pair| one.binary_search(&pair.sides[0]).is_ok());
+    let Some(deepest) = of_part.max_by(|a, b| a.depth.total_cmp(&b.depth)) else {
+        return true;
+    };
+    let [low, high] = [one, other].into_iter().fold(
+        [
+            Vector3::repeat(f64::NEG_INFINITY),
+            Vector3::repeat(f64::INFINITY),
+        ],
+        |[low, high], numbers| {
+            let of = || numbers.iter().map(|&at| &sides[at]);
+            let lowest = of().fold(Vector3::repeat(f64::INFINITY), |low, side| {
+                low.inf(&side.low)
+            });
+            let start = Vector3::repeat(f64::NEG_INFINITY);
+            let highest = of().fold(start, |high, side| high.sup(&side.high));
+            [low.sup(&lowest), high.inf(&highest)]
+        },
+    );
+    let dimension = sides[deepest.sides[0]].dimension;
+    let beside = (0..dimension).filter(|axis| deepest.across[*axis].abs() <= LEANING);
+    let mut over = beside.map(|axis| high[axis] - low[axis]);
+    over.all(|over| deepest.depth == 0.0 || over > WIDE * deepest.depth)
+}
+
 /// Pairs of facets that face each other within a distance, in metre.
-fn facing(
-    first: &[Side],
-    second: &[Side],
-    distance: f64,
-    overlaps: &Overlaps<'_>,
-) -> Vec<[usize; 2]> {
+fn facing(first: &[Side], second: &[Side], distance: f64, overlaps: &Overlaps<'_>) -> Vec<Facing> {
     let extent = |side: &Side| (side.high - side.low).amax();
     let extents = first.iter().chain(second).map(extent);
     let largest = extents.fold(distance, f64::max);
@@ -149,10 +192,14 @@ fn facing(
     let mut pairs = Vec::new();
     for (own, side) in first.iter().enumerate() {
         let near = around(key(side.centre)).filter_map(|key| grid.get(&key));
-        let facing = near
-            .flatten()
-            .filter(|at| side.faces(&second[**at], distance, overlaps));
-        pairs.extend(facing.map(|&other| [own, other]));
+        pairs.extend(near.flatten().filter_map(|&other| {
+            let (across, gap) = side.faces(&second[other], distance, overlaps)?;
+            Some(Facing {
+                sides: [own, other],
+                across,
+                depth: (-gap).max(0.0),
+            })
+        }));
     }
     pairs
 }
@@ -186,17 +233,25 @@ fn skin(body: &Body, facets: Vec<Facet>) -> Vec<Side> {
 }
 
 impl Side {
-    fn faces(&self, other: &Self, distance: f64, overlaps: &Overlaps<'_>) -> bool {
+    /// The direction across which it faces another one within a distance, and the gap along that, in metre.
+    fn faces(
+        &self,
+        other: &Self,
+        distance: f64,
+        overlaps: &Overlaps<'_>,
+    ) -> Option<(Vector3<f64>, f64)> {
         if self.normal.dot(&other.normal) >= OPPOSED {
-            return false;
+            return None;
         }
         let across = (self.normal - other.normal).normalize();
         let gap = across.dot(&(other.centre - self.centre));
         let far_side = || {
             let deep = -gap > ROUND_OFF * (self.high - self.low).amax();
-            deep && overlaps.is_far_side([self.centre, other.centre], across, -gap)
+            let wall = || overlaps.wall([self.centre, other.centre], across);
+            deep && -gap >= WALL * wall()
         };
-        gap.abs() <= distance && self.covers(other, across, gap) && !far_side()
+        let face = gap.abs() <= distance && self.covers(other, across, gap) && !far_side();
+        face.then_some((across, gap))
     }
 
     /// Whether the two lie over each other, seen `across`, and do not only touch at an edge.
@@ -291,6 +346,12 @@ mod tests {
             facing_itself(&low, low.mesh.boundary_facets(), 0.3),
             Some([vec![], vec![]])
         );
+        // What butts against a block, and a little into it, lies over its upper and lower faces by no more than that; so do
+        // blocks that meet at an edge.
+        let strip = block([0.998, 0.0, 0.02], [2.0, 1.0, 0.04], 1);
+        assert_eq!(lengths(&facing_skins([&low, &strip], 0.3)), [[4, 1]]);
+        let beside = block([0.999, 0.0, 0.049], [2.0, 1.0, 0.1], 1);
+        assert!(facing_skins([&low, &beside], 0.02).is_empty());
         // One in the other by a fifth of its wall touches it.
         let deeper = block([0.0, 0.0, 0.04], [1.0, 1.0, 0.09], 2);
         assert_eq!(lengths(&facing_skins([&low, &deeper], 0.3)), [[4, 4]]);

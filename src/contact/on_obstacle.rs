@@ -17,11 +17,11 @@ use super::{Closest, ContactNode, ContactPair, Obstacle};
 use crate::body::{Axis, Body, Facet};
 use crate::error::Error;
 
-/// Distance from the obstacle, as part of a facet, that is none.
-const ON_IT: f64 = 1e-9;
+/// Distance from the obstacle, as part of a facet, that is none: shapes and meshes are drawn to so many digits.
+const ON_IT: f64 = 1e-4;
 
 /// Part of a facet from which a corner of the obstacle is looked at.
-const BACK: f64 = 1e-3;
+const BACK: f64 = 1e-2;
 
 /// Cosine between normals from which they are those of one side of a corner.
 const SAME: f64 = 0.99999;

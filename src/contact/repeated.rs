@@ -8,10 +8,15 @@ use std::collections::HashMap;
 use nalgebra::{Matrix3, Vector3};
 
 use super::ContactNode;
+use super::frame::Stance;
+use super::held::Directions;
 use crate::body::{Body, Tie, TiedPairs};
 
-/// Difference of normals, one turned onto the other, that is round-off.
+/// Difference of normals, one turned onto the other, and of shifts that is round-off.
 const ROUND_OFF: f64 = 1e-6;
+
+/// Difference of normals of two bodies' facets on both sides of a seam, at most: half a radian.
+const TURNED: f64 = 0.5;
 
 /// Joins contacts at nodes that move alike: with an obstacle, or with a body that repeats as theirs does.
 pub(super) fn join(contacts: Vec<ContactNode>, bodies: &[Body]) -> Vec<ContactNode> {
@@ -25,25 +30,28 @@ pub(super) fn join(contacts: Vec<ContactNode>, bodies: &[Body]) -> Vec<ContactNo
     }
     let numbered = contacts.iter().enumerate();
     let number: HashMap<usize, usize> = numbered.map(|(k, contact)| (contact.node, k)).collect();
+    let mut joined: Vec<Option<ContactNode>> = contacts.into_iter().map(Some).collect();
     // The contact that stands for each.
-    let mut stands: Vec<usize> = (0..contacts.len()).collect();
-    for tied in ties(own).filter(|tied| across.is_none_or(|across| repeats(tied, own, across))) {
-        let rotation = Matrix3::from_fn(|i, j| tied.rotation[i][j]);
+    let mut stands: Vec<usize> = (0..joined.len()).collect();
+    for tied in ties(own) {
+        let seam = Seam::new(tied, own, across);
         for [a, b] in &tied.pairs {
             let (Some(&one), Some(&other)) = (number.get(a), number.get(b)) else {
                 continue;
             };
-            if alike(&contacts[one], &contacts[other], rotation) {
-                let (kept, gone) = (stands[one], stands[other]);
+            let (kept, gone) = (stands[one], stands[other]);
+            if kept == gone {
+                continue;
+            }
+            let whole = match (&joined[kept], &joined[gone]) {
+                (Some(kept), Some(gone)) => seam.join(kept, gone),
+                _ => None,
+            };
+            if let Some(whole) = whole {
+                (joined[kept], joined[gone]) = (Some(whole), None);
                 let ends = stands.iter_mut().filter(|contact| **contact == gone);
                 ends.for_each(|contact| *contact = kept);
             }
-        }
-    }
-    let mut joined: Vec<Option<ContactNode>> = contacts.into_iter().map(Some).collect();
-    for (contact, &to) in stands.iter().enumerate().filter(|(k, to)| k != *to) {
-        if let (Some(gone), Some(kept)) = (joined[contact].take(), joined[to].as_mut()) {
-            absorb(kept, &gone);
         }
     }
     joined.into_iter().flatten().collect()
@@ -56,53 +64,115 @@ fn ties(body: &Body) -> impl Iterator<Item = &TiedPairs> {
     })
 }
 
-/// Whether another body repeats along the same way, without a turn.
-fn repeats(tied: &TiedPairs, body: &Body, other: &Body) -> bool {
-    let shift = |body: &Body, tied: &TiedPairs| {
-        let ends = tied
-            .pairs
-            .first()?
-            .map(|node| Vector3::from(body.mesh.nodes[node]));
-        let straight = Matrix3::from_fn(|i, j| tied.rotation[i][j]) == Matrix3::identity();
-        straight.then(|| ends[1] - ends[0])
-    };
-    let Some(own) = shift(body, tied) else {
+/// How a body repeats, and how what it meets does.
+struct Seam {
+    dimension: usize,
+    rotation: Matrix3<f64>,
+    across: Across,
+}
+
+/// What a body that repeats meets.
+enum Across {
+    Obstacle,
+    /// A body that repeats alike.
+    Alike,
+    /// One that does not.
+    Other,
+}
+
+impl Seam {
+    fn new(tied: &TiedPairs, own: &Body, across: Option<&Body>) -> Self {
+        let across = match across {
+            None => Across::Obstacle,
+            Some(across) => {
+                match ties(across).any(|other| repeat_alike([tied, other], [own, across])) {
+                    true => Across::Alike,
+                    false => Across::Other,
+                }
+            }
+        };
+        Self {
+            dimension: own.mesh.dimension,
+            rotation: rotation(tied),
+            across,
+        }
+    }
+
+    /// One contact for two that move alike as they are seen; none if they do not.
+    fn join(&self, kept: &ContactNode, gone: &ContactNode) -> Option<ContactNode> {
+        let parallel = self.rotation == Matrix3::identity();
+        let single = kept.own.len() == 1 && gone.own.len() == 1;
+        if kept.tangents != gone.tangents || !(single || parallel) {
+            return None;
+        }
+        let area = kept.area + gone.area;
+        let shares = [kept.area / area, gone.area / area];
+        let mean = |a: f64, b: f64| shares[0] * a + shares[1] * b;
+        let mut whole = ContactNode {
+            initial_gap: mean(kept.initial_gap, gone.initial_gap),
+            bulge: mean(kept.bulge, gone.bulge),
+            area,
+            ..kept.clone()
+        };
+        let mix = |kept: &mut Vec<(usize, f64)>, gone: &[(usize, f64)]| {
+            kept.iter_mut().for_each(|(_, weight)| *weight *= shares[0]);
+            let others = gone
+                .iter()
+                .map(|(node, weight)| (*node, shares[1] * weight));
+            kept.extend(others);
+        };
+        let normals = [
+            Vector3::from(kept.frame[0]),
+            self.rotation.transpose() * Vector3::from(gone.frame[0]),
+        ];
+        let turned = (normals[0] - normals[1]).norm();
+        match (&self.across, &mut whole.opposite, &gone.opposite) {
+            (Across::Obstacle, _, _) if turned < ROUND_OFF => {
+                if !single {
+                    mix(&mut whole.own, &gone.own);
+                }
+            }
+            (Across::Alike, Some(opposite), Some(far)) if parallel && turned < TURNED => {
+                // A force goes on as the means of both ends, lest it have a moment.
+                mix(&mut whole.own, &gone.own);
+                mix(&mut opposite.nodes, &far.nodes);
+                if turned > ROUND_OFF {
+                    whole.frame =
+                        self.frame(normals[0] * shares[0] + normals[1] * shares[1], kept)?;
+                }
+            }
+            _ => return None,
+        }
+        Some(whole)
+    }
+
+    /// Axes around the mean of both ends' normals; none where supports hold a tangent.
+    fn frame(&self, normal: Vector3<f64>, kept: &ContactNode) -> Option<[[f64; 3]; 3]> {
+        if kept.tangents != 0 && kept.tangents + 1 != self.dimension {
+            return None;
+        }
+        let normal = normal.normalize().into();
+        match Stance::new(self.dimension, normal, &Directions(Vec::new())) {
+            Stance::Free { frame, .. } => Some(frame),
+            Stance::Held | Stance::Askew => None,
+        }
+    }
+}
+
+fn rotation(tied: &TiedPairs) -> Matrix3<f64> {
+    Matrix3::from_fn(|i, j| tied.rotation[i][j])
+}
+
+/// Whether two bodies repeat along the same way, without a turn.
+fn repeat_alike(tied: [&TiedPairs; 2], bodies: [&Body; 2]) -> bool {
+    let shifts = [0, 1].map(|k| {
+        let ends = tied[k].pairs.first()?;
+        let [a, b] = ends.map(|node| Vector3::from(bodies[k].mesh.nodes[node]));
+        (rotation(tied[k]) == Matrix3::identity()).then(|| b - a)
+    });
+    let [Some(one), Some(other)] = shifts else {
         return false;
     };
-    let mut shifts = ties(other).filter_map(|tied| shift(other, tied));
-    shifts.any(|shift| {
-        let apart = (shift - own).norm().min((shift + own).norm());
-        apart < ROUND_OFF * own.norm()
-    })
-}
-
-/// One contact serves for both: their normals agree, and they move alike as they are seen.
-fn alike(one: &ContactNode, other: &ContactNode, rotation: Matrix3<f64>) -> bool {
-    let [n, m] = [one, other].map(|contact| Vector3::from(contact.frame[0]));
-    let single = one.own.len() == 1 && other.own.len() == 1;
-    let parallel = (rotation - Matrix3::identity()).amax() == 0.0;
-    one.tangents == other.tangents && (rotation * n - m).norm() < ROUND_OFF && (single || parallel)
-}
-
-/// A force between bodies goes on as the means of both ends, lest it have a moment.
-fn absorb(kept: &mut ContactNode, gone: &ContactNode) {
-    let area = kept.area + gone.area;
-    let shares = [kept.area / area, gone.area / area];
-    let mean = |a: f64, b: f64| shares[0] * a + shares[1] * b;
-    let mix = |kept: &mut Vec<(usize, f64)>, gone: &[(usize, f64)]| {
-        kept.iter_mut().for_each(|(_, weight)| *weight *= shares[0]);
-        let others = gone
-            .iter()
-            .map(|(node, weight)| (*node, shares[1] * weight));
-        kept.extend(others);
-    };
-    if kept.own.len() > 1 || kept.opposite.is_some() {
-        mix(&mut kept.own, &gone.own);
-    }
-    if let (Some(kept), Some(gone)) = (&mut kept.opposite, &gone.opposite) {
-        mix(&mut kept.nodes, &gone.nodes);
-    }
-    kept.initial_gap = mean(kept.initial_gap, gone.initial_gap);
-    kept.bulge = mean(kept.bulge, gone.bulge);
-    kept.area = area;
+    let apart = (one - other).norm().min((one + other).norm());
+    apart < ROUND_OFF * one.norm()
 }

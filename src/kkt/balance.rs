@@ -24,7 +24,8 @@ const UNCARRIED: f64 = 1e-6;
 const ROUNDED: f64 = 1e-12;
 
 /// as long as the sum of all forces is less than this part of what acts: of a body thousands of times as long as thick,
-/// rounding may be larger than all of it. Contact forces that are themselves rounding do not count.
+/// rounding may be larger than all of it. Contact forces that are themselves rounding do not count, nor loads below the
+/// last digit of the forces of the cells.
 const UNANSWERED: f64 = 1e-3;
 
 /// A residual with the node where it is worst.
@@ -114,7 +115,7 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     let inner = state.inner_force(equilibrium.node);
     let given = match given[..] {
         [loads, contact] if contact > ROUNDED * inner => loads.max(contact),
-        [loads, _] => loads,
+        [loads, _] if loads > f64::EPSILON * inner => loads,
         _ => 0.0,
     };
     Ok(Balance {

@@ -55,15 +55,9 @@ impl ReportedFailure {
             motions,
             sliding: failure.sliding.clone(),
             opening: failure.opening.clone(),
-            elastic: gives_way(parts),
+            elastic: failure.elastic,
             work: failure.proof.work,
             resistance: failure.proof.resistance,
         })
     }
-}
-
-/// Whether bodies give way that would be held if they were rigid; of laws beyond Coulomb's that was not asked.
-pub(super) fn gives_way(parts: &ReportParts<'_>) -> bool {
-    let failure = parts.outcome.failure.as_ref();
-    failure.is_some_and(|failure| failure.elastic) && parts.problem.laws().is_none()
 }

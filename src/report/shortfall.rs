@@ -4,7 +4,6 @@ use serde::Serialize;
 
 use super::ReportParts;
 use super::digits::size;
-use super::failure::gives_way;
 use super::fit::fault;
 use crate::alternation;
 use crate::alternation::Status;
@@ -101,7 +100,7 @@ fn held(parts: &ReportParts<'_>) -> String {
              held by no friction"
         }
     };
-    match gives_way(parts) {
+    match failure.is_some_and(|failure| failure.elastic) {
         true => format!(
             "{advice}; or bring the loads on one after the other, by `steps`: rigid bodies would be held, \
              and what friction holds of elastic ones depends on the way"
@@ -160,9 +159,10 @@ impl ReportedShortfall {
             alternation::Shortfall::OutOfBalance { body, part } => (
                 Reason::OutOfBalance,
                 format!(
-                    "nothing carries {} of the forces on bodies[{body}]: look for cells that are millions of times \
-                     as long as wide, a body that is thousands of times as long as thick, and for a misplaced unit \
-                     among coordinates",
+                    "rounding of the forces of cells leaves {} times the loads or contact forces on bodies[{body}] \
+                     without an answer: look for cells that are millions of times as long as wide, a body that is \
+                     thousands of times as long as thick, loads that are tiny beside prescribed motions, and for a \
+                     misplaced unit among coordinates",
                     size(part)
                 ),
             ),

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | facets that turn too far, or stand off by as much as bodies approach (V1) | `facets` |
 //! | one contact that carries all, sides in each other between contacts, deep obstacles, nothing that touches, a first step | `resolution` |
-//! | facets that meet the same side in two contacts | `stated_twice` |
+//! | facets that meet the same side in two contacts, contacts of two that have one motion | `stated_twice` |
 //! | strain, rotation and slip beyond small displacements | `small_displacement` |
 
 mod facets;
@@ -32,11 +32,12 @@ pub fn notes(parts: &ReportParts<'_>) -> Vec<String> {
         let straight = facets::facets(parts, index, &pressed);
         let between = || resolution::between_contacts(parts, index);
         let found = [
-            resolution::single(&pressed),
+            resolution::single(parts, &pressed),
             straight.or_else(between),
             facets::corner(parts, index, &pressed),
             resolution::deep(parts, index),
-            stated_twice::stated_twice(parts, index),
+            stated_twice::stated_twice(parts, index)
+                .or_else(|| stated_twice::one_motion(parts, index)),
         ];
         let found = found.into_iter().flatten();
         notes.extend(found.map(|note| format!("{}: {note}", pair.place)));

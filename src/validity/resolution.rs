@@ -7,6 +7,9 @@ use crate::contact::{ContactNode, Opposite};
 use crate::kkt::ContactStatus;
 use crate::report::{ReportParts, significant};
 
+/// Angle to its face, in degrees, from which the normal of a contact that alone carries is that of a corner.
+const OFF_FACE: f64 = 15.0;
+
 /// Part of the extent of a surface beyond which an overlap is no fit.
 const FIT: f64 = 0.05;
 
@@ -20,13 +23,40 @@ const OF_MOTION: f64 = 0.1;
 const CLOSED: f64 = 0.01;
 
 /// One contact that carries all.
-pub(super) fn single(pressed: &[&ContactNode]) -> Option<String> {
+pub(super) fn single(parts: &ReportParts<'_>, pressed: &[&ContactNode]) -> Option<String> {
     let [contact] = pressed else { return None };
+    let off = off_its_face(parts, contact);
+    if off > OFF_FACE {
+        return Some(format!(
+            "one contact alone carries, node {}, along a normal {off:.0} degrees off that of its face, as beside a \
+             corner of the other side: neither its force nor its pressure is resolved; refine there",
+            contact.node
+        ));
+    }
     Some(format!(
         "one contact alone carries, node {}: its force is right, its pressure is that force over an area of \
          the mesh's making; refine there for a pressure",
         contact.node
     ))
+}
+
+/// Angle between a contact's normal and that of its face, in degrees.
+fn off_its_face(parts: &ReportParts<'_>, contact: &ContactNode) -> f64 {
+    let Some(body) = parts.bodies.get(contact.body) else {
+        return 0.0;
+    };
+    let facets = parts.surface.facets.iter();
+    let here =
+        facets.filter(|(of, facet)| *of == contact.body && facet.nodes.contains(&contact.node));
+    let outward: Vector3<f64> = here
+        .map(|(_, facet)| Vector3::from(body.mesh.facet_geometry(facet).normal))
+        .sum();
+    let normal = Vector3::from(contact.frame[0]);
+    outward
+        .cross(&normal)
+        .norm()
+        .atan2(outward.dot(&normal))
+        .to_degrees()
 }
 
 /// An obstacle deeper in a body than what bodies may overlap.
@@ -73,8 +103,8 @@ pub(super) fn between_contacts(parts: &ReportParts<'_>, pair: usize) -> Option<S
     let rounded = ROUNDED * nodes.fold(0.0_f64, |most, x| most.max(x.abs()));
     (depth > rounded && depth > OF_MOTION * moved).then(|| {
         format!(
-            "the sides are up to {} in each other between contacts, where bodies move by {}: displacements and \
-             pressures are wrong by as large a part; refine the side that carries, or both",
+            "the sides are up to {} in each other between contacts, where bodies move by {}: by as large a part \
+             displacements and pressures may be wrong; refine the side that carries, or both",
             significant(depth),
             significant(moved)
         )

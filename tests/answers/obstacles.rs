@@ -335,19 +335,33 @@ fn contacts_over_a_wall_stay_open_and_need_no_normal() {
 
 #[test]
 fn a_node_over_a_corner_is_pressed_along_the_normal_of_its_own_face() {
-    // A ridge below the middle node: mirror images of themselves, both ways along the profile.
+    // A ridge below the middle node, or as far beside it as drawings differ: the force is straight up, and the same.
     for slope in [0.02, 0.5, 3.0] {
-        let solution = on_profile(
-            &[[-1.0, -1.5 * slope], [0.5, 0.0], [2.0, -1.5 * slope]],
-            4,
-            0.01,
-        );
-        assert_eq!(solution.status(), Status::Certified);
-        let totals = solution.report().unwrap().totals;
-        assert!(
-            totals.normal > 1.0 && totals.contact_force[0].abs() < 1e-9,
-            "{slope} {totals:?}"
-        );
+        let force = |aside: f64| {
+            let points = [
+                [-1.0, -1.5 * slope],
+                [0.5 + aside, 0.0],
+                [2.0, -1.5 * slope],
+            ];
+            let solution = on_profile(&points, 4, 0.01);
+            assert_eq!(solution.status(), Status::Certified);
+            solution.report().unwrap().totals.contact_force
+        };
+        let below = force(0.0);
+        assert!(below[1] > 1.0 && below[0].abs() < 1e-9, "{slope} {below:?}");
+        // Sides steeper than 60 degrees are not looked at: beside such an edge the judge sees nothing that touches.
+        let asides = [1e-9, -1e-7, 1e-6].into_iter();
+        for aside in asides.filter(|_| slope < 1.7) {
+            let beside = force(aside);
+            assert!(
+                (beside[1] / below[1] - 1.0).abs() < 0.01,
+                "{slope} {aside} {beside:?}"
+            );
+            assert!(
+                beside[0].abs() < 0.01 * below[1],
+                "{slope} {aside} {beside:?}"
+            );
+        }
     }
 }
 

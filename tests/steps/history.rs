@@ -358,3 +358,52 @@ fn bad_tables_are_refused_by_place_before_anything_is_solved() {
             .contains("NaN is not a finite number")
     );
 }
+
+#[test]
+fn what_comes_back_to_nothing_is_certified_as_nothing() {
+    // A block that contact alone holds, pressed and let go; two that are heated between walls and cooled. What rounding
+    // leaves of gaps and forces has no digits, and is held against nothing.
+    for cells in [[1, 1], [3, 2], [5, 4]] {
+        let mut loose = block(&json!({"at": [1, 2, 3], "factors": {
+            "bodies[0].loads[0]": [[0, 0], [1, 1], [2, 0], [3, 1]]
+        }}));
+        loose["bodies"][0]["mesh"]["rectangle"]["cells"] = json!(cells);
+        loose["bodies"][0]["supports"] = json!([{"group": "top", "displacement": [0, null]}]);
+        loose["bodies"][0]["loads"] = json!([{"group": "top", "pressure": 1.0}]);
+        for friction in [0.0, 0.4] {
+            loose["contacts"][0]["friction"] = json!(friction);
+            let normals = history(&scene(&loose))
+                .iter()
+                .map(|report| report.totals.normal)
+                .collect::<Vec<_>>();
+            assert!(
+                (normals[0] - 2.0).abs() < 1e-9 && normals[1].abs() < 1e-12,
+                "{normals:?}"
+            );
+            assert!((normals[2] - 2.0).abs() < 1e-9, "{normals:?}");
+        }
+        let heated = |name: &str, y: [i32; 2], wide: f64, held: &str| {
+            json!({
+                "name": name,
+                "mesh": {"rectangle": {"x": [0, wide], "y": y, "cells": cells}},
+                "model": "plane_strain",
+                "materials": [{"young": 1.5, "poisson": 0, "expansion": 1e-3}],
+                "supports": [{"group": held, "displacement": [0, 0]}],
+                "loads": [{"temperature": 48.65}]
+            })
+        };
+        let factors = json!([[0, 0], [1, 1], [2, 0], [3, 1], [4, 0]]);
+        let walls = json!({
+            "bodies": [heated("upper", [1, 2], 1.0, "top"), heated("lower", [0, 1], 1.2, "bottom")],
+            "contacts": [{
+                "body": "upper", "group": "bottom", "friction": 0.3,
+                "against": {"body": "lower", "group": "top"}
+            }],
+            "steps": {"at": [1, 2, 3, 4], "factors": {
+                "bodies[0].loads[0]": factors, "bodies[1].loads[0]": factors
+            }}
+        });
+        let reports = history(&scene(&walls));
+        assert!(reports[0].totals.normal > 0.05 && reports[3].totals.normal.abs() < 1e-12);
+    }
+}

@@ -122,3 +122,50 @@ fn what_stands_on_a_part_of_a_face_does_not_touch_beyond_it() {
         assert!((report.totals.normal - 5.0).abs() < 1e-9);
     }
 }
+
+#[test]
+fn what_is_in_each_other_by_a_corner_is_no_contact() {
+    // Four unit squares in a cross, each 0.002 in its neighbours, ν = 0: p = E · 0.002 / 2 everywhere; those that meet at
+    // the middle alone do not press. A strip beside a block is in it at its end, not above and below.
+    let square = |name: &str, [x, y]: [f64; 2], sides: [&str; 2]| {
+        let mesh = rectangle_of(CellKind::Quad4, [x, y], [x + 1.0, y + 1.0], [5, 5]);
+        hold(
+            hold(body(name, mesh, 1000.0, 0.0), sides[0], 0, 0.0),
+            sides[1],
+            1,
+            0.0,
+        )
+    };
+    let near = 1.0 - 0.002;
+    let cross = vec![
+        square("a", [0.0, 0.0], ["left", "bottom"]),
+        square("b", [near, 0.0], ["right", "bottom"]),
+        square("c", [0.0, near], ["left", "top"]),
+        square("d", [near, near], ["right", "top"]),
+    ];
+    let (_, report) = certified(&anywhere(cross, 0.02));
+    assert_eq!(report.totals.pairs.len(), 4);
+    assert!(
+        (report.totals.peak_pressure - 1.0).abs() < 0.01,
+        "{}",
+        report.totals.peak_pressure
+    );
+    let of = |name: &str, low: [f64; 2], high: [f64; 2], held: &str| {
+        let mesh = rectangle_of(CellKind::Quad4, low, high, [2, 2]);
+        hold(
+            hold(body(name, mesh, 1000.0, 0.0), held, 0, 0.0),
+            held,
+            1,
+            0.0,
+        )
+    };
+    let strip = vec![
+        of("block", [0.0, 0.0], [1.5, 2.0], "left"),
+        of("strip", [1.498, 0.05], [3.0, 0.15], "right"),
+    ];
+    for distance in [0.02, 0.2] {
+        let (_, report) = certified(&anywhere(strip.clone(), distance));
+        assert_eq!(report.totals.pairs.len(), 1);
+        assert!(report.totals.normal > 0.05);
+    }
+}

@@ -29,6 +29,9 @@ const SLIVER: f64 = 1e-14;
 /// Depth, relative to the facet, below which nothing behind it is the far side of a wall.
 const SHALLOW: f64 = 1e-2;
 
+/// Part of a wall from which a face as deep behind another one is its far side.
+const WALL: f64 = 0.95;
+
 /// Common area of two parts, relative to the smaller, below which they lie side by side.
 const OVERLAP: f64 = 1e-9;
 
@@ -112,8 +115,8 @@ impl<'a> Opposite<'a> {
             let (span, depth) = (part.span(view, outline), -part.distance * view.size);
             if depth < self.depth {
                 let deep = part.distance < -SHALLOW;
-                let ends = [span.from, span.to];
-                if !(deep && self.overlaps.is_far_side(ends, view.normal, depth)) {
+                let wall = || self.overlaps.wall([span.from, span.to], view.normal);
+                if !(deep && depth >= WALL * wall()) {
                     cover.parts.push(part);
                 }
                 continue;

@@ -10,10 +10,10 @@
 //! there, but not to either side of the span, they are in each other across it: what is a fit seen from
 //! their tops is none of their walls.
 //!
-//! A face behind another one by half of what both bodies have there is the far side of walls, and in nothing:
+//! A face behind another one by as much as the thicker of both walls is the far side of walls, and in nothing:
 //!
 //! ```text
-//! d ≥ ½ max(w₁, w₂)       d: distance back to it;  w: how far from either face its own body reaches
+//! d ≥ max(w₁, w₂)       d: distance back to it;  w: how far from either face its own body reaches
 //! ```
 //!
 //! Solid angle of a triangle: van Oosterom & Strackee, IEEE Trans. Biomed. Eng. 30 (1983) 125–126.
@@ -37,9 +37,6 @@ const DIRECTIONS: u32 = 8;
 
 /// Part of a facet by which a line that meets its edge may miss it.
 const EDGE: f64 = 1e-9;
-
-/// Part of the thicker of two walls from which a face that lies as deep behind another one is its far side.
-const WALL: f64 = 0.5;
 
 /// A line between two points of space, in metre.
 #[derive(Clone, Copy)]
@@ -84,21 +81,18 @@ impl<'a> Overlaps<'a> {
         self.both(middle) && around.all(|way| self.both(middle + way * (NEARLY_HALF * depth)))
     }
 
-    /// Whether a face at `to`, which lies a depth in metre behind one at `from`, is the far side of what lies between;
-    /// `normal`: outward of the one at `from`, of length 1.
-    pub(in crate::contact) fn is_far_side(
+    /// How thick the walls are behind a face at `from` and before one at `to`, the thicker of the two, in metre;
+    /// `normal`: outward at `from`, of length 1.
+    pub(in crate::contact) fn wall(
         &self,
         [from, to]: [Vector3<f64>; 2],
         normal: Vector3<f64>,
-        depth: f64,
-    ) -> bool {
+    ) -> f64 {
         let (Some(own), Some(other)) = (self.solids.first(), self.solids.last()) else {
-            return false;
+            return f64::INFINITY;
         };
-        let walls = own
-            .thickness(from, -normal)
-            .max(other.thickness(to, normal));
-        depth >= WALL * walls
+        let own = own.thickness(from, -normal);
+        own.max(other.thickness(to, normal))
     }
 
     fn both(&self, point: Vector3<f64>) -> bool {

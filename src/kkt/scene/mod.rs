@@ -255,11 +255,23 @@ impl SceneGeometry {
             };
             let mut laws = seats.iter().filter_map(|seat| laws.get(seat.contact));
             let within = laws.all(Law::is_within_coulomb);
+            let within = within && self.is_felt(state, seats);
             if within && state.body.model != crate::body::Model::Axisymmetric {
                 fit.reach = touching.reach(&forces, part, at);
             }
         }
         fit
+    }
+
+    /// Whether forces of a pair move its contacts by more than rounding of where they stand: what came back to nothing has
+    /// no resultant.
+    fn is_felt(&self, state: &BodyState<'_>, seats: &[Seat]) -> bool {
+        let compliance = state.problem.compliance();
+        let unknowns = seats
+            .iter()
+            .flat_map(|seat| state.problem.block(seat.contact));
+        let mut moved = unknowns.map(|k| compliance[(k, k)] * state.reaction[k].abs());
+        moved.any(|moved| moved > self.rounding())
     }
 }
 

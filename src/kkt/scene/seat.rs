@@ -40,6 +40,8 @@ pub(super) struct Seat {
     pub(super) faces: Vec<usize>,
     /// Least and greatest distance there along its normal, in metre; reversed where there is none.
     pub(super) distances: [f64; 2],
+    /// All ways from side to side there are across its normal, as before a wall.
+    beside: bool,
     /// Largest sagitta of both sides there, in metre.
     pub(super) sagitta: f64,
     /// How far both sides' means are from one line along the normal, in metre.
@@ -73,6 +75,7 @@ impl Seat {
         let towards = Vector3::from(contact.frame[0]) * if contact.second { -1.0 } else { 1.0 };
         let (mut distances, mut sagitta) = ([f64::INFINITY, f64::NEG_INFINITY], 0.0_f64);
         let (mut leant, mut size) = (0.0_f64, 0.0_f64);
+        let mut beside = !faces.is_empty();
         let mut normals = Vec::new();
         for &face in &faces {
             size = size.max(meeting.skins[side].faces[face].size);
@@ -83,6 +86,7 @@ impl Seat {
                     normals.extend(in_plane.filter_map(|normal| normal.try_normalize(ALONG)));
                 }
                 let cosine = sample.towards.dot(&towards);
+                beside &= cosine.abs() <= ALONG;
                 if cosine > ALONG {
                     let distance = sample.distance / cosine;
                     distances = [distances[0].min(distance), distances[1].max(distance)];
@@ -111,15 +115,16 @@ impl Seat {
             },
             faces,
             distances,
+            beside,
             sagitta,
         }
     }
 
     /// (K12) for the gap before loading that is said of the contact, in metre, lengths being known to
-    /// `rounded`. Of one that does not press, where nothing is seen along its normal, as over a wall, nothing is said.
+    /// `rounded`. Of one that does not press, beside a wall, nothing is said.
     pub(super) fn misplacement(&self, initial_gap: f64, rounded: f64, pressed: bool) -> Measure {
         let [low, high] = self.distances;
-        if !pressed && low > high {
+        if !pressed && self.beside {
             return Measure::default();
         }
         let outside = (low - initial_gap).max(initial_gap - high).max(0.0);

@@ -11,7 +11,7 @@
 //! | `stress` | points, cells | stress, in pascal | `S` |
 //! | `von_mises` | points, cells | von Mises stress, in pascal | `MISES` |
 //! | `principal_stress` | points, cells | principal stresses, the largest first, in pascal | `SP` |
-//! | `strain` | cells | strain (the tensor: half of the angles), of heat too | `E` |
+//! | `strain` | cells | strain (the tensor: half of the angles), of heat too; 0 across plates in plane stress | `E` |
 //! | `body` | points, cells | body, from 0 | |
 //!
 //! | contact surface: array | at | what | Abaqus |
