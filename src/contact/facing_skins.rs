@@ -12,6 +12,7 @@
 //! c and n: centre and outward normal of a facet. Facets lie in a grid of boxes as large as the largest of them, so that each is
 //! compared with its neighbours only.
 
+use std::cell::OnceCell;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use nalgebra::Vector3;
@@ -50,6 +51,8 @@ struct Side {
     low: Vector3<f64>,
     high: Vector3<f64>,
     dimension: usize,
+    /// How far the body reaches behind its middle, in metre, once that was asked.
+    wall: OnceCell<f64>,
 }
 
 /// The facets of two bodies that face one of the other within a distance, in metre, body by body: together those that run
@@ -226,6 +229,7 @@ fn skin(body: &Body, facets: Vec<Facet>) -> Vec<Side> {
             low: nodes().fold(start, |low, x| low.inf(&x)),
             high: nodes().fold(start, |high, x| high.sup(&x)),
             dimension: body.mesh.dimension,
+            wall: OnceCell::new(),
             facet,
         }
     };
@@ -247,11 +251,17 @@ impl Side {
         let gap = across.dot(&(other.centre - self.centre));
         let far_side = || {
             let deep = -gap > ROUND_OFF * (self.high - self.low).amax();
-            let wall = || overlaps.wall([self.centre, other.centre], across);
-            deep && -gap >= WALL * wall()
+            let walls = || self.wall(0, overlaps).max(other.wall(1, overlaps));
+            deep && -gap >= WALL * walls()
         };
         let face = gap.abs() <= distance && self.covers(other, across, gap) && !far_side();
         face.then_some((across, gap))
+    }
+
+    /// How far the body reaches behind the facet, in metre; `side`: 0 for the first body, 1 for the second.
+    fn wall(&self, side: usize, overlaps: &Overlaps<'_>) -> f64 {
+        let behind = || overlaps.reach(side, self.centre, -self.normal);
+        *self.wall.get_or_init(behind)
     }
 
     /// Whether the two lie over each other, seen `across`, and do not only touch at an edge.

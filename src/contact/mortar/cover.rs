@@ -29,6 +29,9 @@ const SLIVER: f64 = 1e-14;
 /// Depth, relative to the facet, below which nothing behind it is the far side of a wall.
 const SHALLOW: f64 = 1e-2;
 
+/// Part of the depth that is believed below which nothing is the far side of a wall: thinner ones are not looked for.
+const THIN: f64 = 0.02;
+
 /// Part of a wall from which a face as deep behind another one is its far side.
 const WALL: f64 = 0.95;
 
@@ -114,8 +117,11 @@ impl<'a> Opposite<'a> {
             }
             let (span, depth) = (part.span(view, outline), -part.distance * view.size);
             if depth < self.depth {
-                let deep = part.distance < -SHALLOW;
-                let wall = || self.overlaps.wall([span.from, span.to], view.normal);
+                let deep = part.distance < -SHALLOW && depth > THIN * self.depth;
+                let wall = || {
+                    let own = self.overlaps.reach(0, span.from, -view.normal);
+                    own.max(self.overlaps.reach(1, span.to, view.normal))
+                };
                 if !(deep && depth >= WALL * wall()) {
                     cover.parts.push(part);
                 }

@@ -81,18 +81,16 @@ impl<'a> Overlaps<'a> {
         self.both(middle) && around.all(|way| self.both(middle + way * (NEARLY_HALF * depth)))
     }
 
-    /// How thick the walls are behind a face at `from` and before one at `to`, the thicker of the two, in metre;
-    /// `normal`: outward at `from`, of length 1.
-    pub(in crate::contact) fn wall(
+    /// How far the body of a side, 0 or 1, reaches from a point on its boundary in a direction of length 1, in metre;
+    /// infinite where no end is seen.
+    pub(in crate::contact) fn reach(
         &self,
-        [from, to]: [Vector3<f64>; 2],
-        normal: Vector3<f64>,
+        side: usize,
+        from: Vector3<f64>,
+        along: Vector3<f64>,
     ) -> f64 {
-        let (Some(own), Some(other)) = (self.solids.first(), self.solids.last()) else {
-            return f64::INFINITY;
-        };
-        let own = own.thickness(from, -normal);
-        own.max(other.thickness(to, normal))
+        let solid = self.solids.get(side).or(self.solids.last());
+        solid.map_or(f64::INFINITY, |solid| solid.thickness(from, along))
     }
 
     fn both(&self, point: Vector3<f64>) -> bool {
@@ -130,22 +128,19 @@ impl<'a> Solid<'a> {
         self.boundary.get_or_init(|| self.mesh.boundary_facets())
     }
 
-    /// How far from a point on its boundary the body reaches in a direction of length 1, in metre; infinite where no
-    /// end is seen.
+    /// How far it is from a point to where a direction of length 1 leaves the body, in metre; infinite where it does not.
     fn thickness(&self, from: Vector3<f64>, along: Vector3<f64>) -> f64 {
-        let ends = self.boundary().iter().filter_map(|facet| {
-            let corners = facet.corners(self.mesh.dimension).iter();
-            let corners: Vec<Vector3<f64>> = corners
-                .map(|node| Vector3::from(self.mesh.nodes[*node]) - from)
-                .collect();
-            let end = |a, b, c| leaves_at(along, [a, b, c]);
-            match corners[..] {
-                [a, b] => end(a, b, b + Vector3::z()),
-                [a, b, c] => end(a, b, c),
-                [a, b, c, d] => end(a, b, c).or_else(|| end(a, c, d)),
-                _ => None,
-            }
-        });
+        let at = |node: usize| Vector3::from(self.mesh.nodes[node]) - from;
+        let ends =
+            self.boundary()
+                .iter()
+                .filter_map(|facet| match *facet.corners(self.mesh.dimension) {
+                    [a, b] => leaves_at(along, [at(a), at(b), at(b) + Vector3::z()]),
+                    [a, b, c] => leaves_at(along, [a, b, c].map(at)),
+                    [a, b, c, d] => leaves_at(along, [a, b, c].map(at))
+                        .or_else(|| leaves_at(along, [a, c, d].map(at))),
+                    _ => None,
+                });
         ends.fold(f64::INFINITY, f64::min)
     }
 
