@@ -45,13 +45,10 @@ impl Run<'_> {
                 false => contacts.idle(floating.load()),
             };
             if let Some(Equilibrium::Impossible { motion, excess }) = found {
-                self.failure = self.believe(&contacts, floating, motion, excess);
+                self.failure = self.believe(&contacts, floating, motion, Some(excess));
             } else if let Some(motion) = self.doubted.clone() {
                 let (motion, _) = contacts.at_unit_speed(motion, floating.load());
-                let missing = self
-                    .proof(floating, &motion)
-                    .map_or(0.0, |proof| proof.work);
-                self.failure = self.believe(&contacts, floating, motion, missing);
+                self.failure = self.believe(&contacts, floating, motion, None);
             }
         }
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
@@ -77,12 +74,13 @@ impl Run<'_> {
         self.work.seconds.coulomb += start.elapsed().as_secs_f64();
     }
 
+    /// The failure that a motion proves, if it does. Where `missing` is left out it is what the laws leave of the load's work.
     fn believe(
         &self,
         contacts: &RigidContacts,
         floating: &Floating,
         motion: Vec<f64>,
-        missing: f64,
+        missing: Option<f64>,
     ) -> Option<Failure> {
         let proof = self.proof(floating, &motion)?;
         let load = floating.load().iter().fold(0.0, |s: f64, e| s.hypot(*e));
@@ -92,7 +90,7 @@ impl Run<'_> {
             apparent: apparent.motion,
             sliding: apparent.sliding,
             opening: apparent.opening,
-            missing,
+            missing: missing.unwrap_or(proof.work),
             proof,
             elastic: false,
         })

@@ -45,7 +45,7 @@ pub(super) fn carrying<'a>(
     }
     let of_first = Coverage::new(first, second, place)?;
     let ends = of_first.ends();
-    let finer = of_first.finer_across() > MUCH_FINER;
+    let finer = ends.facets == 0 && of_first.finer_across() > MUCH_FINER;
     if ends.facets == 0 && !finer || young[1] > MUCH_STIFFER * young[0] {
         return Ok((of_first, false));
     }

@@ -243,7 +243,7 @@ fn goes_on(other: &Mesh, contact: &ContactNode, beyond: [f64; 3]) -> bool {
 }
 
 /// The nodes of a facet in ascending order, the same from both sides.
-fn key(facet: &Facet) -> Vec<usize> {
+pub(crate) fn key(facet: &Facet) -> Vec<usize> {
     let mut nodes = facet.nodes.clone();
     nodes.sort_unstable();
     nodes

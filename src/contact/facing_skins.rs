@@ -161,25 +161,16 @@ fn are_wide([one, other]: &[Vec<usize>; 2], sides: &[Side], pairs: &[Facing]) ->
     let Some(deepest) = of_part.max_by(|a, b| a.depth.total_cmp(&b.depth)) else {
         return true;
     };
-    let [low, high] = [one, other].into_iter().fold(
-        [
-            Vector3::repeat(f64::NEG_INFINITY),
-            Vector3::repeat(f64::INFINITY),
-        ],
-        |[low, high], numbers| {
-            let of = || numbers.iter().map(|&at| &sides[at]);
-            let lowest = of().fold(Vector3::repeat(f64::INFINITY), |low, side| {
-                low.inf(&side.low)
-            });
-            let start = Vector3::repeat(f64::NEG_INFINITY);
-            let highest = of().fold(start, |high, side| high.sup(&side.high));
-            [low.sup(&lowest), high.inf(&highest)]
-        },
-    );
+    let [one, other] = [one, other].map(|numbers| {
+        let nothing = [f64::INFINITY, f64::NEG_INFINITY].map(Vector3::repeat);
+        numbers.iter().fold(nothing, |[low, high], &at| {
+            [low.inf(&sides[at].low), high.sup(&sides[at].high)]
+        })
+    });
+    let over = one[1].inf(&other[1]) - one[0].sup(&other[0]);
     let dimension = sides[deepest.sides[0]].dimension;
-    let beside = (0..dimension).filter(|axis| deepest.across[*axis].abs() <= LEANING);
-    let mut over = beside.map(|axis| high[axis] - low[axis]);
-    over.all(|over| deepest.depth == 0.0 || over > WIDE * deepest.depth)
+    let mut beside = (0..dimension).filter(|axis| deepest.across[*axis].abs() <= LEANING);
+    deepest.depth == 0.0 || beside.all(|axis| over[axis] > WIDE * deepest.depth)
 }
 
 /// Pairs of facets that face each other within a distance, in metre.

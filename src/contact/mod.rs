@@ -40,6 +40,7 @@ mod surface;
 mod turn;
 mod turning_edges;
 
+pub(crate) use facing::key as facet_key;
 pub(crate) use facing_skins::{facing_itself, facing_skins};
 pub use law::{PairLaw, Places, Region};
 pub use node::{ContactNode, OppositeNodes};

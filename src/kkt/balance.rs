@@ -93,14 +93,16 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
         None => held,
     };
     let parts = [state.load, &contact, &held];
-    let given = parts[..2].iter();
-    let given = given.map(|part| nodal_lengths(part, dimension).sum());
-    let given: Vec<f64> = given.collect();
-    let [loads, contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
-    let sizes = parts.iter().flat_map(|part| nodal_lengths(part, dimension));
-    let (force, total) = sizes.fold((0.0_f64, 0.0), |(most, sum), size| {
-        (most.max(size), sum + size)
+    // The largest nodal force of each, and the sum of all.
+    let sizes = parts.map(|part| {
+        nodal_lengths(part, dimension).fold((0.0_f64, 0.0), |(most, sum), size| {
+            (most.max(size), sum + size)
+        })
     });
+    let force = sizes.iter().fold(0.0_f64, |most, size| most.max(size.0));
+    let [acting, pressing, holding] = sizes.map(|(_, sum)| sum);
+    let total = acting + pressing + holding;
+    let [loads, contact, supports] = parts.map(|part| Resultant::of(nodes, part, dimension));
     let motion = nodal_lengths(state.displacement, dimension).fold(0.0, f64::max);
     let reach = nodes.iter().map(|&x| length(x)).fold(0.0, f64::max);
     let [forces, moments] = match state.body.model {
@@ -113,10 +115,12 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     let equilibrium = worst_node(&loose, force, dimension);
     let force_defect = Defect::of(&forces, total);
     let inner = state.inner_force(equilibrium.node);
-    let given = match given[..] {
-        [loads, contact] if contact > ROUNDED * inner => loads.max(contact),
-        [loads, _] if loads > f64::EPSILON * inner => loads,
-        _ => 0.0,
+    let given = if pressing > ROUNDED * inner {
+        acting.max(pressing)
+    } else if acting > f64::EPSILON * inner {
+        acting
+    } else {
+        0.0
     };
     Ok(Balance {
         inner,

@@ -95,13 +95,15 @@ pub(super) fn between_contacts(parts: &ReportParts<'_>, pair: usize) -> Option<S
     let depth = parts.fits.get(pair)?.overlap.value;
     let lengths = parts.extremes.iter().map(|body| body.displacement.value);
     let moved = lengths.fold(0.0, f64::max);
-    let nodes = parts
-        .bodies
-        .iter()
-        .flat_map(|body| &body.mesh.nodes)
-        .flatten();
-    let rounded = ROUNDED * nodes.fold(0.0_f64, |most, x| most.max(x.abs()));
-    (depth > rounded && depth > OF_MOTION * moved).then(|| {
+    let rounded = || {
+        let nodes = parts
+            .bodies
+            .iter()
+            .flat_map(|body| &body.mesh.nodes)
+            .flatten();
+        ROUNDED * nodes.fold(0.0_f64, |most, x| most.max(x.abs()))
+    };
+    (depth > OF_MOTION * moved && depth > rounded()).then(|| {
         format!(
             "the sides are up to {} in each other between contacts, where bodies move by {}: by as large a part \
              displacements and pressures may be wrong; refine the side that carries, or both",

@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 
 use crate::body::Facet;
-use crate::contact::{ContactNode, ContactPair, Opposite};
+use crate::contact::{ContactNode, ContactPair, Opposite, facet_key};
 use crate::report::ReportParts;
 
 /// Difference of weights that is round-off.
@@ -86,11 +86,6 @@ fn meet_alike(one: &ContactPair, other: &ContactPair) -> bool {
 }
 
 fn share(one: &[Facet], other: &[Facet]) -> bool {
-    let key = |facet: &Facet| {
-        let mut nodes = facet.nodes.clone();
-        nodes.sort_unstable();
-        nodes
-    };
-    let of_one: HashSet<Vec<usize>> = one.iter().map(key).collect();
-    other.iter().any(|facet| of_one.contains(&key(facet)))
+    let of_one: HashSet<Vec<usize>> = one.iter().map(facet_key).collect();
+    other.iter().any(|facet| of_one.contains(&facet_key(facet)))
 }

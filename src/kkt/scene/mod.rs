@@ -283,7 +283,7 @@ fn pressed(state: &BodyState<'_>, seats: &[Seat]) -> Vec<bool> {
         let force = block(state.problem, seat.contact, state.reaction);
         let tension = laws.map_or(0.0, |laws| laws[seat.contact].tension);
         // What glue bears of itself tells nothing of where the sides are.
-        let normal = force[0] - tension.max(0.0);
+        let normal = force[0] - tension;
         let most = force[1..]
             .iter()
             .fold(normal.abs(), |most, t| most.max(t.abs()));
