@@ -69,6 +69,7 @@ pub mod limit;
 pub mod mesh_file;
 mod pipeline;
 pub mod problem;
+mod processor;
 mod random;
 pub mod report;
 pub mod scene;

@@ -15,6 +15,8 @@ use faer::perm::PermRef;
 use faer::{Accum, Col, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
+use crate::processor::{add, widest};
+
 /// Power iterations.
 const ITERATIONS: usize = 8;
 
@@ -225,8 +227,10 @@ pub(super) fn add_columns(sum: &mut [f64], matrix: &Mat<f64>, parts: &[(usize, f
     chunks.for_each(|(chunk, sum)| {
         for &(column, part) in parts {
             let entries = &matrix.col_as_slice(column)[chunk * TAKEN..];
-            let entries = sum.iter_mut().zip(entries);
-            entries.for_each(|(sum, entry)| *sum += part * entry);
+            widest(
+                #[inline(always)]
+                || add(sum, part, entries),
+            );
         }
     });
 }

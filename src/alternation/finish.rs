@@ -70,7 +70,7 @@ enum System {
 /// Rounds of refinement by (D18) at most, part of what one found that it may leave, and part of the first that is solved.
 const ROUNDS: usize = 8;
 const LEFT: f64 = 0.1;
-const SOLVED: f64 = 1e-12;
+const SOLVED: f64 = 1e-8;
 
 /// What may be left of a step by (D18), as a part of the first or of all reactions, where no round gets further.
 const ENOUGH: [f64; 2] = [1e-8, 1e-13];

@@ -13,6 +13,7 @@
 //! Jourdan, Alart, Jean, Comput. Methods Appl. Mech. Eng. 155 (1998) 31–47.
 
 use crate::problem::ContactProblem;
+use crate::processor::{dot, widest};
 
 /// The passes over one problem; step lengths are computed once.
 #[derive(Debug)]
@@ -78,7 +79,11 @@ impl<'a> GaussSeidel<'a> {
         let (n, end) = (problem.offsets()[contact], problem.offsets()[contact + 1]);
         let displacement = |unknown: usize, reaction: &[f64]| {
             let column = problem.compliance().col_as_slice(unknown);
-            problem.free_displacement()[unknown] + dot(column, reaction)
+            problem.free_displacement()[unknown]
+                + widest(
+                    #[inline(always)]
+                    || dot(column, reaction),
+                )
         };
         let step = &self.steps[contact];
         let penetration = displacement(n, reaction) - problem.initial_gap()[contact];
@@ -114,24 +119,6 @@ fn inverse(compliance: f64) -> f64 {
 /// Of the symmetric matrix `[[a, b], [b, c]]`.
 fn largest_eigenvalue(a: f64, b: f64, c: f64) -> f64 {
     0.5 * (a + c) + (0.5 * (a - c)).hypot(b)
-}
-
-/// Dot product in eight lanes, so that the compiler can keep several in flight.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a_chunks, b_chunks) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = a_chunks
-        .remainder()
-        .iter()
-        .zip(b_chunks.remainder())
-        .map(|(x, y)| x * y)
-        .sum();
-    let mut lanes = [0.0; 8];
-    for (x, y) in a_chunks.zip(b_chunks) {
-        for lane in 0..8 {
-            lanes[lane] += x[lane] * y[lane];
-        }
-    }
-    lanes.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]

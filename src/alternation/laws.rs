@@ -12,6 +12,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use crate::problem::{ContactProblem, Limits};
+use crate::processor::{add, widest};
 
 /// A diagonal entry of G below this part of the largest is round-off.
 const NOTHING: f64 = f64::EPSILON;
@@ -323,6 +324,7 @@ impl Law {
 }
 
 /// What belongs to the unknowns of one contact.
+#[inline(always)]
 pub(super) fn of_contact(block: &Range<usize>, of: impl Fn(usize) -> f64) -> [f64; 3] {
     let mut own = [0.0; 3];
     let unknowns = own.iter_mut().zip(block.clone());
@@ -424,8 +426,11 @@ fn column_of<'a>(
     for (at, along) in own.block.clone().zip(direction) {
         if along != 0.0 {
             let force = part * roots[at] * along;
-            let moved = moved.iter_mut().zip(problem.compliance().col_as_slice(at));
-            moved.for_each(|(sum, entry)| *sum += force * entry);
+            let column = problem.compliance().col_as_slice(at);
+            widest(
+                #[inline(always)]
+                || add(&mut moved, force, column),
+            );
         }
     }
     laws.iter().flat_map(move |law| {

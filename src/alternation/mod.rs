@@ -135,6 +135,24 @@ pub fn solve_near(
     settings: &Settings,
     near: &Outcome,
 ) -> Result<Outcome, Error> {
+    solve_beside(problem, settings, near, None)
+}
+
+/// What [`solve_near`] finds where the neighbour is the same state with fewer digits: its condition is that of this one.
+pub(crate) fn solve_again(
+    problem: &ContactProblem,
+    settings: &Settings,
+    near: &Outcome,
+) -> Result<Outcome, Error> {
+    solve_beside(problem, settings, near, near.condition)
+}
+
+fn solve_beside(
+    problem: &ContactProblem,
+    settings: &Settings,
+    near: &Outcome,
+    condition: Option<f64>,
+) -> Result<Outcome, Error> {
     let displacement = &near.verdict.displacement;
     check_length("displacement", problem.unknowns(), displacement.len())?;
     check_finite("displacement", displacement)?;
@@ -148,7 +166,9 @@ pub fn solve_near(
         );
         on_felt_motions(problem, |problem, felt| {
             let state = (&reaction[..], &felt(&near.motion)[..]);
-            Ok(run(begun(problem, settings, state, Some(&beyond))?))
+            let mut begun = begun(problem, settings, state, Some(&beyond))?;
+            begun.condition = condition;
+            Ok(run(begun))
         })
     })
 }

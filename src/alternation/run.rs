@@ -72,6 +72,8 @@ pub(super) struct Run<'a> {
     sweep_start: Instant,
     history: Vec<SweepRecord>,
     pub(super) work: Work,
+    /// κ of (D7) where it is known.
+    pub(super) condition: Option<f64>,
     pub(super) shortfall: Option<Shortfall>,
     pub(super) failure: Option<Failure>,
     /// Where a program whose equilibrium cannot be had would move the bodies.
@@ -110,6 +112,7 @@ impl<'a> Run<'a> {
             sweep_start: Instant::now(),
             history: Vec::new(),
             work: Work::default(),
+            condition: None,
             shortfall: None,
             failure: None,
             doubted: None,
@@ -335,7 +338,8 @@ impl<'a> Run<'a> {
         } else {
             Status::NotConverged
         };
-        let condition = self.finish.as_ref().and_then(Finish::condition);
+        let estimated = || self.finish.as_ref().and_then(Finish::condition);
+        let condition = self.condition.or_else(estimated);
         let shortfall = match self.shortfall {
             _ if self.is_unanswered() && self.hangs_on_last_digits() => Shortfall::IllConditioned {
                 excess: self.excess(),

@@ -18,6 +18,7 @@ use super::Condensed;
 use super::condensed_body::FactoredBody;
 use super::load_case::Action;
 use crate::error::{Error, check_length};
+use crate::processor::widest;
 
 impl Condensed {
     /// How much further the contacts of recovered bodies are than the contact problem says, in metre per unknown.
@@ -188,7 +189,10 @@ impl FactoredBody {
                 let entries = self.stiffness.indptr().outer_inds_sz(row);
                 let columns = self.stiffness.indices()[entries.clone()].iter();
                 let terms = columns.zip(&self.stiffness.data()[entries]);
-                deep_sum(load, terms.map(|(&k, entry)| (-entry, displacement[k])))
+                widest(
+                    #[inline(always)]
+                    || deep_sum(load, terms.map(|(&k, entry)| (-entry, displacement[k]))),
+                )
             })
             .collect();
         let mut rest = self.in_order(rest);
@@ -211,6 +215,7 @@ fn norm(vector: &[f64]) -> f64 {
 
 /// `first + Σ a b`, the rounding of products and sums summed beside them (Ogita, Rump, Oishi, SIAM J. Sci.
 /// Comput. 26 (2005), algorithm 5.3).
+#[inline(always)]
 fn deep_sum(first: f64, products: impl Iterator<Item = (f64, f64)>) -> f64 {
     let (mut sum, mut lost) = (first, 0.0);
     for (left, right) in products {

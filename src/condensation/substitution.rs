@@ -11,6 +11,7 @@
 use std::ops::Range;
 
 use super::supernodes::{Lower, Number};
+use crate::processor::{add, dot, widest};
 
 impl<T: Number> Lower<'_, T> {
     /// Through the columns before `end` of some supernodes.
@@ -22,17 +23,19 @@ impl<T: Number> Lower<'_, T> {
             work.clear();
             work.extend_from_slice(&x[own.clone()]);
             work.resize(supernode.height(), 0.0);
-            for j in 0..supernode.width_before(end) {
-                let (above, below) = work.split_at_mut(j + 1);
-                let column = supernode.column(j);
-                let pivot: f64 = column[j].into();
-                let value = above[j] / pivot;
-                above[j] = value;
-                for (w, &l) in below.iter_mut().zip(&column[j + 1..]) {
-                    let l: f64 = l.into();
-                    *w -= l * value;
-                }
-            }
+            widest(
+                #[inline(always)]
+                || {
+                    for j in 0..supernode.width_before(end) {
+                        let (above, below) = work.split_at_mut(j + 1);
+                        let column = supernode.column(j);
+                        let pivot: f64 = column[j].into();
+                        let value = above[j] / pivot;
+                        above[j] = value;
+                        add(below, -value, &column[j + 1..]);
+                    }
+                },
+            );
             x[own].copy_from_slice(&work[..supernode.width]);
             for (&row, change) in supernode.pattern.iter().zip(&work[supernode.width..]) {
                 x[row] += change;
@@ -52,31 +55,20 @@ impl<T: Number> Lower<'_, T> {
             work.extend(supernode.pattern.iter().map(|&row| x[row]));
             let (top, below) = work.split_at_mut(supernode.width);
             // All of the supernode once in the order of memory, its triangle from the cache.
-            for (j, value) in top[..width].iter_mut().enumerate() {
-                *value -= dot(&supernode.column(j)[supernode.width..], below);
-            }
-            for j in (0..width).rev() {
-                let column = &supernode.column(j)[..supernode.width];
-                let pivot: f64 = column[j].into();
-                top[j] = (top[j] - dot(&column[j + 1..], &top[j + 1..])) / pivot;
-            }
+            widest(
+                #[inline(always)]
+                || {
+                    for (j, value) in top[..width].iter_mut().enumerate() {
+                        *value -= dot(&supernode.column(j)[supernode.width..], below);
+                    }
+                    for j in (0..width).rev() {
+                        let column = &supernode.column(j)[..supernode.width];
+                        let pivot: f64 = column[j].into();
+                        top[j] = (top[j] - dot(&column[j + 1..], &top[j + 1..])) / pivot;
+                    }
+                },
+            );
             x[own].copy_from_slice(top);
         }
     }
-}
-
-/// Inner product in eight running sums, which the processor adds side by side.
-fn dot<T: Number>(a: &[T], b: &[f64]) -> f64 {
-    let (a_blocks, a_rest) = a.as_chunks::<8>();
-    let (b_blocks, b_rest) = b.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (x, y) in a_blocks.iter().zip(b_blocks) {
-        for lane in 0..8 {
-            let x: f64 = x[lane].into();
-            sums[lane] += x * y[lane];
-        }
-    }
-    let rest = a_rest.iter().zip(b_rest);
-    let rest: f64 = rest.map(|(&x, y)| Into::<f64>::into(x) * y).sum();
-    sums.iter().sum::<f64>() + rest
 }

@@ -7,6 +7,7 @@
 //! (Ogita, Rump, Oishi, SIAM J. Sci. Comput. 26 (2005) 1955–1988, algorithm 5.3).
 
 use crate::problem::ContactProblem;
+use crate::processor::widest;
 
 /// A sum and what rounding has taken from it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -16,6 +17,7 @@ struct Deep {
 }
 
 impl Deep {
+    #[inline(always)]
     fn add(&mut self, term: f64) {
         let sum = self.sum + term;
         let back = sum - self.sum;
@@ -23,6 +25,7 @@ impl Deep {
         self.sum = sum;
     }
 
+    #[inline(always)]
     fn add_product(&mut self, left: f64, right: f64) {
         let product = left * right;
         self.add(product);
@@ -66,9 +69,14 @@ pub(super) fn deep_place(problem: &ContactProblem, reaction: &[f64], motion: [&[
     });
     let columns = problem.compliance().col_iter().zip(reaction).chain(moved);
     for (column, &amount) in columns.filter(|(_, amount)| **amount != 0.0) {
-        for (sum, entry) in sums.iter_mut().zip(column.iter()) {
-            sum.add_product(*entry, amount);
-        }
+        widest(
+            #[inline(always)]
+            || {
+                for (sum, entry) in sums.iter_mut().zip(column.iter()) {
+                    sum.add_product(*entry, amount);
+                }
+            },
+        );
     }
     let rounded = |sums: &[Deep]| sums.iter().map(|sum| sum.sum + sum.lost).collect();
     let displacement = rounded(&sums);

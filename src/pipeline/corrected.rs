@@ -50,7 +50,7 @@ impl Setup {
             let ahead = self.ahead(&outcome, &displacements)?;
             self.condensed.shift(&ahead)?;
             let problem = self.condensed.problem();
-            let again = alternation::solve_near(problem, &self.settings, &outcome)?;
+            let again = alternation::solve_again(problem, &self.settings, &outcome)?;
             outcome = again.after(outcome);
             displacements = self.condensed.recover(&outcome.reaction, &outcome.motion)?;
             self.refine(&outcome, &mut displacements)?;
@@ -131,7 +131,7 @@ impl Setup {
     ) -> Result<(Outcome, f64), Error> {
         let condensed = &mut self.condensed;
         condensed.shift(correction.ahead())?;
-        let again = alternation::solve_near(condensed.problem(), &self.settings, &outcome)?;
+        let again = alternation::solve_again(condensed.problem(), &self.settings, &outcome)?;
         let pairs = again.reaction.iter().zip(&outcome.reaction);
         let change: Vec<f64> = pairs.map(|(now, before)| now - before).collect();
         condensed.advance(correction, &change, displacements)?;

@@ -20,6 +20,7 @@ use rayon::prelude::*;
 
 use super::Compliance;
 use crate::error::{Error, check_finite};
+use crate::processor::{add, widest};
 
 /// Largest asymmetry `|G_ij − G_ji|` accepted, relative to the largest entry of G.
 const SYMMETRY: f64 = 1e-10;
@@ -76,8 +77,10 @@ impl RoundedStiffness {
             let mut scaled = vec![0.0; force.len()];
             for &(column, w) in &moved {
                 let entries = &self.of_scaled.col_as_slice(column)[first..];
-                let pairs = scaled.iter_mut().zip(entries);
-                pairs.for_each(|(sum, entry)| *sum += w * f64::from(*entry));
+                widest(
+                    #[inline(always)]
+                    || add(&mut scaled, w, entries),
+                );
             }
             let scale = &self.scale[first..];
             let pairs = force.iter_mut().zip(scaled.iter().zip(scale));
