@@ -125,7 +125,9 @@ impl Run<'_> {
         let acts = self.best.reaction.iter().any(|t| *t != 0.0);
         self.problem.floating().is_some() && acts && {
             let [reach, moved] = self.reach(&self.best);
-            moved > BEYOND * reach
+            // Of bodies without compliance nothing else is left of it.
+            let acts = largest(self.problem.free_displacement().iter().copied());
+            moved > BEYOND * reach.max(acts)
         }
     }
 

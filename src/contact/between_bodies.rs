@@ -26,6 +26,9 @@ const MOSTLY: f64 = 0.5;
 /// Part of a normal across the axes along which nothing moves, below which it is held.
 const LEANING: f64 = 0.5;
 
+/// Motions that cancel to this part of their size do.
+const ROUNDED: f64 = 1e-12;
+
 /// One surface of a pair, in outward order.
 struct Side {
     body: usize,
@@ -228,6 +231,11 @@ fn still_directions(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarN
         None => axes,
     };
     candidates.retain(|direction| {
+        if normal.dot(direction).abs() < LEANING
+            && drawn_apart(scene, [own, other], node, direction)
+        {
+            return false;
+        }
         let at_corner = corner.hold(direction);
         let mut still = met.iter().filter(|(held, _)| held.hold(direction));
         // What has moved along a line has left the plane that holds its corner, but not along a face.
@@ -240,6 +248,24 @@ fn still_directions(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarN
             && still.map(|(_, weight)| weight).sum::<f64>() > MOSTLY
     });
     Directions(candidates)
+}
+
+/// Whether supports move the sides against each other along a direction, along which friction then acts.
+fn drawn_apart(
+    scene: &Bodies<'_>,
+    [own, other]: [usize; 2],
+    node: &MortarNode,
+    direction: &Vector3<f64>,
+) -> bool {
+    let near = node.own.iter().map(|&(near, weight)| (own, near, weight));
+    let met = node.met().map(|(across, weight)| (other, across, -weight));
+    let parts = near
+        .chain(met)
+        .map(|(body, at, weight)| weight * scene.given_along(body, at, direction));
+    let (sum, size) = parts.fold((0.0, 0.0), |(sum, size): (f64, f64), part| {
+        (sum + part, size + part.abs())
+    });
+    sum.abs() > ROUNDED * size
 }
 
 /// The direction without its components along some others; none if little is left.

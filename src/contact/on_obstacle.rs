@@ -236,8 +236,8 @@ impl View<'_> {
         }))
     }
 
-    /// Keeps of the supported directions of a contact with friction those along which nothing moves it: along
-    /// the others it slips, if that is meant.
+    /// Keeps of the supported directions of a contact with friction those along which nothing moves it, nor the obstacle:
+    /// along the others it slips, if that is meant.
     fn slip_by_supports(
         &self,
         footing: &Footing,
@@ -265,7 +265,10 @@ impl View<'_> {
                 axis: AXES[direction.iamax()],
             });
         }
-        supported.0.retain(|direction| moved(direction).is_none());
+        let position = self.body.mesh.nodes[footing.node];
+        supported.0.retain(|direction| {
+            moved(direction).is_none() && !pair.moves_along(position, direction)
+        });
         Ok(())
     }
 }

@@ -1,10 +1,16 @@
 //! A pair of sides that may touch, as a scene names it, and what it adds to the contact surface.
 
+use nalgebra::Vector3;
+
 use super::Obstacle;
 use super::law::PairLaw;
 use super::node::ContactNode;
+use super::rigid_body::RigidMotion;
 use crate::body::Facet;
 use crate::error::{Error, check_finite};
+
+/// A motion that has no more than this part of its size along a direction is across it.
+const ALONG: f64 = 1e-12;
 
 /// A part of a body's surface that may touch a rigid obstacle or another surface.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +41,8 @@ pub struct ContactPair {
     pub gap: f64,
     /// Supports may move its nodes along the obstacle, and friction acts against that motion.
     pub dragged: bool,
+    /// Motions that the obstacle may make, of any size: along these, friction acts on nodes that supports hold as well.
+    pub obstacle_motions: Vec<RigidMotion>,
 }
 
 /// The other side of a contact pair.
@@ -72,7 +80,18 @@ impl ContactPair {
             rounded: true,
             gap: 0.0,
             dragged: false,
+            obstacle_motions: Vec::new(),
         }
+    }
+
+    /// Whether the obstacle may move along a direction there, by more than rounding of its motions.
+    pub(super) fn moves_along(&self, position: [f64; 3], direction: &Vector3<f64>) -> bool {
+        let moved = self
+            .obstacle_motions
+            .iter()
+            .map(|motion| Vector3::from(motion.at(position)));
+        let mut along = moved.map(|moved| (moved.dot(direction).abs(), moved.norm()));
+        along.any(|(along, size)| along > ALONG * size)
     }
 
     /// Whether it is one of two bodies, whichever it names first.

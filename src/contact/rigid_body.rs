@@ -76,6 +76,13 @@ impl RigidBody {
         }
     }
 
+    /// A motion along every component that is free or moved.
+    pub(crate) fn possible_motions(&self) -> impl Iterator<Item = RigidMotion> {
+        let still = |component: &Component| *component == Component::Given(0.0);
+        let moves = (0..6).filter(move |k| !still(&self.components[*k]));
+        moves.map(|k| self.motion(std::array::from_fn(|at| f64::from(u8::from(at == k)))))
+    }
+
     /// How much shorter a motion makes the bolt that is cut, in metre; zero without a cut.
     #[must_use]
     pub fn shortening(&self, motion: &RigidMotion) -> f64 {

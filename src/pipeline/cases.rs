@@ -9,7 +9,7 @@ use super::{Acting, Setup, Solution};
 use crate::alternation;
 use crate::alternation::{Outcome, Status};
 use crate::condensation::{Driven, Superposition};
-use crate::contact::ContactPair;
+use crate::contact::{ContactPair, RigidMotion};
 use crate::error::Error;
 use crate::report::{Cell, Table};
 use crate::scene::Scene;
@@ -151,14 +151,22 @@ impl Stated {
             .iter()
             .map(|pair| pair.friction)
             .collect();
-        // Contacts hold tangents where any case has friction.
+        // Contacts hold tangents where any case has friction, and along what any case moves.
         for (drive, variation) in drives.iter().zip(variations) {
-            if let Drive::Friction(contacts) = drive {
-                check_varied(&variation.name, contacts, &mechanics.contacts)?;
-                let most = variation.values.iter().copied().fold(0.0, f64::max);
-                contacts
-                    .iter()
-                    .for_each(|&k| mechanics.contacts[k].friction = most);
+            match drive {
+                Drive::Friction(contacts) => {
+                    check_varied(&variation.name, contacts, &mechanics.contacts)?;
+                    let most = variation.values.iter().copied().fold(0.0, f64::max);
+                    contacts
+                        .iter()
+                        .for_each(|&k| mechanics.contacts[k].friction = most);
+                }
+                Drive::Obstacle(contact, axis) => {
+                    let mut motion = RigidMotion::default();
+                    motion.translation[*axis] = 1.0;
+                    mechanics.contacts[*contact].obstacle_motions.push(motion);
+                }
+                _ => {}
             }
         }
         let mut setup = Setup::new(scene, mechanics).map_err(at_scene)?;

@@ -105,6 +105,13 @@ impl SceneBolt {
                     selection::vector(&format!("{place}.{key}"), values, mesh.dimension)
                 };
                 let plane = [of("point", point)?, of("axis", axis)?];
+                if mesh.groups.contains_key(&format!("{}.own", self.name)) {
+                    return Err(Error::NotAccepted {
+                        place: format!("{place}.name"),
+                        found: format!("`{}`, which names a cut already", self.name),
+                        accepted: "another name".to_owned(),
+                    });
+                }
                 mesh.cut(place, &self.name, &cells, plane)?;
                 Ok(["own", "other"].map(|side| format!("{}.{side}", self.name).into()))
             }
@@ -162,6 +169,7 @@ impl SceneBolt {
             rounded: false,
             gap: 0.0,
             dragged: false,
+            obstacle_motions: Vec::new(),
         };
         let between = RigidBody {
             place: place.to_owned(),

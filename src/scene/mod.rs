@@ -370,6 +370,13 @@ impl Scene {
             None => LoadHistory::default(),
         };
         bolt::check_locks(&rigid_bodies, &history)?;
+        for (at, pair) in contacts.iter_mut().enumerate() {
+            let carriers = rigid_bodies
+                .iter()
+                .filter(|rigid| rigid.pairs.contains(&at));
+            let carried = carriers.flat_map(RigidBody::possible_motions);
+            pair.obstacle_motions = history.obstacle_motions(at).chain(carried).collect();
+        }
         Ok(Mechanics {
             bodies,
             contacts,

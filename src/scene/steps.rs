@@ -32,7 +32,7 @@ use super::spelling;
 use super::table::Table;
 use crate::body::{Body, Load, Source, Tie};
 use crate::condensation::Driven;
-use crate::contact::{ContactPair, Opposite, RigidBody};
+use crate::contact::{ContactPair, Opposite, RigidBody, RigidMotion};
 use crate::error::{Error, check_finite};
 
 /// A load history, quasi-static: one state per instant, each with the law of friction on the
@@ -289,6 +289,17 @@ impl LoadHistory {
             }
         }
         moved
+    }
+
+    /// Motions that the obstacle of a contact makes, besides those of a rigid body.
+    pub(super) fn obstacle_motions(&self, contact: usize) -> impl Iterator<Item = RigidMotion> {
+        let tables = self.obstacles.iter().filter(move |(of, _)| *of == contact);
+        let instants = self.instants.iter();
+        let moved = tables.flat_map(move |(_, table)| instants.clone().map(|at| table.at(*at)));
+        moved.map(|moved| RigidMotion {
+            translation: [0, 1, 2].map(|axis| moved.get(axis).copied().unwrap_or(0.0)),
+            ..RigidMotion::default()
+        })
     }
 
     /// Length added to all gaps of every contact at an instant, in metre; none where no gap changes.

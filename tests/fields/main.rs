@@ -7,6 +7,7 @@ mod cells;
 mod gaps;
 mod group_lists;
 mod heat;
+mod held_contacts;
 mod loads;
 mod local_supports;
 mod materials;
