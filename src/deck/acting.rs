@@ -63,7 +63,11 @@ impl Stock<'_, '_> {
         }
         for ((part, kind, bits), slots) in alike {
             let values: Vec<f64> = bits.into_iter().map(f64::from_bits).collect();
-            let stated = largest(&values);
+            let stated = match kind {
+                // A square: its sign is that of the factor.
+                Kind::Spin(_) => largest(&values).abs(),
+                _ => largest(&values),
+            };
             if !matches!(kind, Kind::Held(_)) && stated == 0.0 {
                 continue;
             }

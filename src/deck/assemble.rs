@@ -78,7 +78,8 @@ impl Stock<'_, '_> {
                     .error("*MODEL CHANGE takes all pairs out, in all steps")
             }));
         }
-        let steps = (self.history.instants.len() > 1).then(|| SceneSteps {
+        let steps = self.history.instants.len() > 1 || !factors.is_empty();
+        let steps = steps.then(|| SceneSteps {
             at: self.history.instants.clone(),
             factors,
             gaps,

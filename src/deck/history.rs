@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Instants are the ends of steps and, inside them, the times of the amplitudes in use. Loads that a
-//! step does not state persist, unless it says OP=NEW; then they end.
+//! step does not state persist, unless it says OP=NEW; then they end. Those that it states add up, each with its own
+//! amplitude, in place of what was there before.
 
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -27,6 +28,12 @@ pub(super) struct History {
     /// Values at the instants.
     pub(super) values: BTreeMap<Slot, Vec<f64>>,
 }
+
+/// Name of an amplitude, and the bits of its delay.
+type Named = (String, u64);
+
+/// What a load or a support follows.
+type Follows = Option<(Named, Rc<Amplitude>)>;
 
 /// A load or a support as a step leaves it.
 #[derive(Clone, Debug)]
@@ -49,6 +56,9 @@ const FAMILIES: [&[&str]; 4] = [
     &["TEMPERATURE"],
 ];
 
+/// The one of forces on faces and in cells.
+const DISTRIBUTED: usize = 2;
+
 fn family(slot: Slot) -> usize {
     match slot {
         Slot::Held(..) | Slot::Motion(..) | Slot::OwnMotion(..) | Slot::Shortening(_) => 0,
@@ -62,11 +72,15 @@ fn family(slot: Slot) -> usize {
     }
 }
 
+/// Times closer than this part of a step are one: ends of steps are sums.
+const NEAR: f64 = 1e-9;
+
 /// The history while it is read.
 struct Walk<'m, 'r> {
     reader: Reader<'r>,
     amplitudes: &'m Amplitudes,
-    entries: BTreeMap<Slot, Entry>,
+    /// Of a load an entry per amplitude: they add up.
+    entries: BTreeMap<(Slot, Option<Named>), Entry>,
     history: History,
     time: f64,
 }
@@ -112,9 +126,9 @@ impl Walk<'_, '_> {
         let held = self
             .entries
             .keys()
-            .filter(|slot| family(**slot) == 0)
+            .filter(|(slot, _)| family(*slot) == 0)
             .count();
-        self.end_families(step)?;
+        self.end_families(step, at_once, notes);
         for &stated in step
             .cards
             .iter()
@@ -134,23 +148,30 @@ impl Walk<'_, '_> {
     }
 
     /// What OP=NEW ends: it falls to nothing, if the step does not state it again.
-    fn end_families(&mut self, step: &Step<'_, '_>) -> Result<(), Error> {
+    fn end_families(&mut self, step: &Step<'_, '_>, at_once: bool, notes: &mut Notes) {
         for (at, keywords) in FAMILIES.iter().enumerate() {
             let of_family = |card: &Card<'_>| keywords.contains(&card.name.as_str());
-            let mut cards = step.cards.iter().map(|(_, card)| card);
-            if !cards.any(|card| of_family(card) && card.get("OP") == Some("NEW")) {
+            let cards = step.cards.iter().map(|(_, card)| card);
+            let mut new = cards.filter(|card| of_family(card) && card.get("OP") == Some("NEW"));
+            let Some(card) = new.next() else {
                 continue;
-            }
-            for (_, entry) in self
-                .entries
-                .iter_mut()
-                .filter(|(slot, _)| family(**slot) == at)
-            {
+            };
+            let both = new.any(|other| other.name != card.name);
+            let ended = self.entries.iter_mut();
+            for ((slot, _), entry) in ended.filter(|((slot, _), _)| family(*slot) == at) {
+                let of_surface = matches!(slot, Slot::SurfacePressure(_));
+                let other = at == DISTRIBUTED && of_surface != (card.name == "DSLOAD");
+                if other && !both && entry.stated != 0.0 {
+                    notes.add(
+                        card,
+                        "`OP=NEW` ends loads of *DLOAD and of *DSLOAD, which CalculiX keeps in one list; Abaqus would \
+                         keep those of the other keyword",
+                    );
+                }
                 entry.stated = if at == 0 { f64::NAN } else { 0.0 };
-                entry.amplitude = None;
+                (entry.amplitude, entry.at_once) = (None, at_once);
             }
         }
-        Ok(())
     }
 
     fn apply(
@@ -161,10 +182,15 @@ impl Walk<'_, '_> {
         notes: &mut Notes,
     ) -> Result<(), Error> {
         let card = stated.1;
-        let amplitude = self.amplitude(card)?;
+        let (name, amplitude) = self.amplitude(card)?.unzip();
         for (slot, given) in self.reader.read(stated, notes)? {
-            self.end_other_spins(slot, step, at_once);
-            let entry = self.entries.entry(slot).or_insert(Entry {
+            // Loads of one step add up; supports say the same twice; of temperatures the last one counts.
+            let adds = [1, 2].contains(&family(slot));
+            if adds {
+                self.end_before(slot, step, at_once || amplitude.is_some());
+            }
+            let key = (slot, name.clone().filter(|_| adds));
+            let entry = self.entries.entry(key).or_insert(Entry {
                 stated: 0.0,
                 amplitude: amplitude.clone(),
                 at_once,
@@ -172,38 +198,39 @@ impl Walk<'_, '_> {
                 step: usize::MAX,
             });
             let again = entry.step == step;
-            // Loads of one step add up; supports say the same twice; of temperatures the last one counts.
-            let adds = again && [1, 2].contains(&family(slot));
-            if adds && given == 0.0 {
-                continue;
-            }
-            let beside = if adds { entry.start } else { given };
-            let scaled = entry.stated != 0.0 || beside != 0.0;
+            let scaled = entry.stated != 0.0 || given != 0.0;
             let other = (scaled && entry.amplitude != amplitude)
                 || (family(slot) == 0 && entry.stated != given);
-            if again && other {
+            if again && !adds && other {
                 return Err(card.error("one node or face with two values in one step"));
             }
-            entry.stated = if adds { entry.stated + given } else { given };
+            entry.stated = if again && adds {
+                entry.stated + given
+            } else {
+                given
+            };
             (entry.at_once, entry.step) = (at_once, step);
             entry.amplitude.clone_from(&amplitude);
         }
         Ok(())
     }
 
-    /// Ends spins about other axes that were stated before this step: to state one anew changes the axis.
-    fn end_other_spins(&mut self, slot: Slot, step: usize, at_once: bool) {
-        let Slot::Spin(cell, _) = slot else { return };
-        let of_cell = Slot::Spin(cell, [0; 6])..=Slot::Spin(cell, [u64::MAX; 6]);
-        let others = self.entries.range_mut(of_cell);
-        for (_, entry) in others.filter(|(other, entry)| **other != slot && entry.step != step) {
-            (entry.stated, entry.amplitude) = (0.0, None);
-            (entry.at_once, entry.step) = (at_once, step);
+    /// Ends what was stated of a load before this step, as it is stated anew; of spins those about any axis, as the axis may
+    /// change.
+    fn end_before(&mut self, slot: Slot, step: usize, at_once: bool) {
+        let (first, last) = match slot {
+            Slot::Spin(cell, _) => (Slot::Spin(cell, [0; 6]), Slot::Spin(cell, [u64::MAX; 6])),
+            one => (one, one),
+        };
+        let before = self.entries.range_mut((first, None)..);
+        let before = before.take_while(|((slot, _), _)| *slot <= last);
+        for (_, entry) in before.filter(|(_, entry)| entry.step != step) {
+            (entry.stated, entry.amplitude, entry.at_once) = (0.0, None, at_once);
         }
     }
 
     /// The amplitude that a card names, delayed as it says.
-    fn amplitude(&self, card: &Card<'_>) -> Result<Option<Rc<Amplitude>>, Error> {
+    fn amplitude(&self, card: &Card<'_>) -> Result<Follows, Error> {
         let Some(name) = card.get("AMPLITUDE") else {
             return match card.get("TIMEDELAY") {
                 None => Ok(None),
@@ -216,7 +243,8 @@ impl Walk<'_, '_> {
             None => 0.0,
             Some(word) => card.head(0).number_of(word, "a time")?,
         };
-        Ok(Some(Rc::new(amplitude.delayed(delay))))
+        let named = (name.to_owned(), delay.to_bits());
+        Ok(Some((named, Rc::new(amplitude.delayed(delay)))))
     }
 
     /// Supports stand at every instant: none begins or ends on the way.
@@ -226,7 +254,10 @@ impl Walk<'_, '_> {
         step: &Step<'_, '_>,
         before: usize,
     ) -> Result<(), Error> {
-        let supports = self.entries.iter().filter(|(slot, _)| family(**slot) == 0);
+        let supports = self
+            .entries
+            .iter()
+            .filter(|((slot, _), _)| family(*slot) == 0);
         let now = supports.clone().count();
         let boundary = step.cards.iter().find(|(_, card)| card.name == "BOUNDARY");
         let card = boundary.map_or(step.card, |(_, card)| card);
@@ -250,10 +281,11 @@ impl Walk<'_, '_> {
             };
             let start = if amplitude.total { 0.0 } else { self.time };
             if amplitude.total || entry.step.max(1) == number {
-                let inside = amplitude.times(self.time - start, end - start);
+                let near = NEAR * (end - self.time);
+                let inside = amplitude.times(self.time + near - start, end - near - start);
                 instants.extend(inside.map(|time| time + start));
                 instants.sort_by(f64::total_cmp);
-                instants.dedup();
+                instants.dedup_by(|later, time| *later - *time <= near);
             }
         }
         instants
@@ -263,10 +295,11 @@ impl Walk<'_, '_> {
         let before = self.history.instants.len();
         self.history.instants.push(time);
         self.history.steps.push(number);
-        for (&slot, entry) in &self.entries {
-            let values = self.history.values.entry(slot);
+        for ((slot, _), entry) in &self.entries {
+            let values = self.history.values.entry(*slot);
             let values = values.or_insert_with(|| vec![0.0; before]);
-            values.push(value(entry, number, time, self.time, period));
+            values.resize(before + 1, 0.0);
+            values[before] += value(entry, number, time, self.time, period);
         }
     }
 }

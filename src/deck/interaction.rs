@@ -3,7 +3,7 @@
 //! ```text
 //! HARD, LINEAR K, EXPONENTIAL (c₀, p₀)    unilateral
 //! TIED K and λ, *TIE                      one with what it stands on
-//! NO SEPARATION, ROUGH                    apart never; no slip while pressed
+//! NO SEPARATION, ROUGH                    apart never; no slip while pressed; with both, one
 //! K, stick slope λ                        left out from 100 E / h of the cells there on, as penalties;
 //!                                         below it layers of compliance 1 / K and 1 / λ
 //! ```
@@ -82,6 +82,9 @@ pub(super) fn read_law<'a, 'c>(
             ])?;
             law.rough = card.get("ROUGH").is_some();
             law.cap = cap(card)?.map(|cap| (cap, card));
+            if law.rough && law.cap.is_some() {
+                return Err(card.error("`TAUMAX` beside `ROUGH` is not read"));
+            }
             if !law.rough {
                 let (friction, stick) = friction(card)?;
                 (law.friction, law.stick) = (friction, stick.map(|of| (of, card)));
@@ -206,6 +209,7 @@ impl Interaction<'_, '_> {
         let friction = self.friction;
         contact.law = match (self.normal, self.cap) {
             (Normal::Tied, None) => Some(SceneLaw::Bonded),
+            (Normal::NoSeparation, None) if self.rough => Some(SceneLaw::Bonded),
             (Normal::NoSeparation, None) => Some(SceneLaw::NoSeparation { friction }),
             (Normal::Tied | Normal::NoSeparation, Some((_, card))) => {
                 return Err(card.error("`TAUMAX` of surfaces that do not part is not read"));

@@ -195,7 +195,7 @@ impl<'a, 'c> Contacts<'a, 'c> {
         let found = found.ok_or_else(unknown)?;
         match self.laws[self.pairs[found].interaction].is_tied() {
             true => Err(card.error(format!(
-                "`{slave}`, `{master}` is tied; expected surfaces that may part"
+                "`{slave}`, `{master}` is tied, or without separation; expected surfaces that may part"
             ))),
             false => Ok(&mut self.pairs[found]),
         }

@@ -63,6 +63,51 @@ fn each_type_of_load_is_restated_by_itself() {
 }
 
 #[test]
+fn loads_of_one_step_add_up_each_with_its_own_amplitude() {
+    let model = "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*AMPLITUDE, NAME=N\n0., 0., 1., -1.\n";
+    let text = format!(
+        "{PRESSED}*CLOAD, AMPLITUDE=A\n13, 1, 0.1\n*CLOAD, AMPLITUDE=N\n13, 1, 0.3\n*CLOAD\n13, 1, 0.2\n--\n\
+         *CLOAD\n13, 1, 0.4\n--\n*CLOAD, OP=NEW\n14, 2, -0.1\n"
+    );
+    assert_loads(
+        &squares(model, &text),
+        1,
+        &[[0.1, -2.0], [0.4, -2.0], [0.0, -2.1]],
+    );
+    // m ω² r of 4.5 down and, from another axis, of 4.5 to the right; both at once and again, then the other way.
+    let both = |amplitude: &str| {
+        format!(
+            "*DLOAD{amplitude}\n1, CENTRIF, 1., 0.5, 2., 0., 0., 0., 1.\n1, CENTRIF, 1., -1., 0.5, 0., 0., 0., 1.\n"
+        )
+    };
+    let text = format!(
+        "{PRESSED}{}--\n{}",
+        both(", AMPLITUDE=N"),
+        both(", AMPLITUDE=A")
+    );
+    let text = squares(model, &text).replace("1., 2.\n", "1., 1.\n");
+    assert_loads(&text, 0, &[[-4.5, 4.5], [4.5, -4.5]]);
+    let only = format!("{PRESSED}{}", both(", AMPLITUDE=N"));
+    assert_loads(&squares(model, &only), 0, &[[-4.5, 4.5]]);
+}
+
+#[test]
+fn what_ends_loads_of_another_keyword_is_noted() {
+    let lid = "*SURFACE, NAME=LID\nUP, S3\n";
+    let text = format!("{PRESSED}*DSLOAD\nLID, P, 1.\n--\n*DLOAD, OP=NEW\n2, P3, 2.\n");
+    let text = squares(lid, &text);
+    assert_loads(&text, 1, &[[0.0, -3.0], [0.0, -2.0]]);
+    let noted = |text: &str| {
+        read(text)
+            .notes
+            .iter()
+            .any(|note| note.contains("which CalculiX keeps in one list"))
+    };
+    assert!(noted(&text));
+    assert!(!noted(&text.replace("*DSLOAD\nLID, P, 1.\n", "")));
+}
+
+#[test]
 fn a_force_along_an_axis_of_its_node_is_restated_by_itself() {
     // 0.1 (0.6, 0.8) + 0.2 (−0.8, 0.6) = (−0.1, 0.2).
     let axes =
@@ -171,11 +216,29 @@ fn friction_that_is_capped_gives_no_more_than_its_cap() {
     assert_close(dragged(&text), 1.0, 1e-9);
     let capped = text.replace("*FRICTION\n", "*FRICTION, TAUMAX=0.3\n");
     assert_close(dragged(&capped), 0.3, 1e-9);
-    let said = refused(&capped.replace("=0.3", "=0."));
-    assert!(
-        said.contains("*FRICTION: `TAUMAX=0`; expected one above 0"),
-        "{said}"
+    for (found, expected) in [
+        ("TAUMAX=0.", "`TAUMAX=0`; expected one above 0"),
+        ("ROUGH, TAUMAX=0.3", "`TAUMAX` beside `ROUGH` is not read"),
+    ] {
+        let said = refused(&capped.replace("TAUMAX=0.3", found));
+        assert!(said.contains(&format!("*FRICTION: {expected}")), "{said}");
+    }
+}
+
+#[test]
+fn what_neither_parts_nor_slips_is_one() {
+    let text = SQUARES.replace("11, 1\n14, 1\n", "11, 1, 1, 0.1\n14, 1, 1, 0.1\n");
+    let shear = |law: &str| {
+        let text = text.replace("*FRICTION\n0.5\n", law);
+        certified(&read(&text)).report().unwrap().totals.friction[0]
+    };
+    let held = shear("*SURFACE BEHAVIOR, NO SEPARATION\n*FRICTION, ROUGH\n");
+    assert_close(
+        held,
+        shear("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1.E9\n*FRICTION\n0.5, 1.E9\n"),
+        1e-9,
     );
+    assert!(held.abs() > 10.0);
 }
 
 #[test]

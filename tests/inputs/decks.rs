@@ -574,6 +574,11 @@ fn a_bad_deck_is_refused_by_file_line_and_keyword() {
         ),
         (
             "*MATERIAL",
+            "*PART, NAME=P\n*END PART\n*PART, NAME=P\n*END PART\n*MATERIAL",
+            ":16: *PART: part `P` once more",
+        ),
+        (
+            "*MATERIAL",
             "*NSET, NSET=A, GENERATE\n5, 9\n*MATERIAL",
             ":15: *NSET: no node from 5 to 9",
         ),

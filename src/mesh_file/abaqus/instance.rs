@@ -64,7 +64,13 @@ pub(crate) fn flatten<'a, 'c>(cards: &'c [Card<'a>]) -> Result<Flat<'a, 'c>, Err
             "PART" => {
                 card.only(&["NAME"])?;
                 let length = length(&cards[at..], card, "ENDPART")?;
-                parts.insert(bare(card.need("NAME")?), &cards[at..at + length]);
+                let name = card.need("NAME")?;
+                let once_more = parts.insert(bare(name), &cards[at..at + length]).is_some();
+                if once_more {
+                    return Err(
+                        card.error(format!("part `{name}` once more; expected another name"))
+                    );
+                }
                 at += length + 1;
             }
             "INSTANCE" => {
