@@ -182,20 +182,27 @@ impl PairLaw {
     }
 }
 
-/// The mean of the nodes that the contact moves with, on the side where the regions are.
+/// The mean of the nodes that the contact moves with, on the side where the regions are; of two sides of one body, the one
+/// that is in a region.
 fn friction_in(elsewhere: f64, regions: &[Region], contact: &ContactNode) -> f64 {
-    let on = |body: usize| regions.iter().any(|region| region.body == body);
-    let (body, nodes) = match &contact.opposite {
-        Some(opposite) if !on(contact.body) => (opposite.body, &opposite.nodes),
-        _ => (contact.body, &contact.own),
-    };
-    let mut of_node: HashMap<usize, [f64; 2]> = HashMap::new();
-    for region in regions.iter().filter(|region| region.body == body) {
-        for &node in region.facets.iter().flat_map(|facet| &facet.nodes) {
-            let [sum, count] = of_node.entry(node).or_default();
-            (*sum, *count) = (*sum + region.friction, *count + 1.0);
+    let opposite = contact.opposite.iter();
+    let opposite = opposite.map(|opposite| (opposite.body, &opposite.nodes));
+    let sides = std::iter::once((contact.body, &contact.own)).chain(opposite);
+    let mut of_sides = sides.map(|(body, nodes)| {
+        let mut of_node: HashMap<usize, [f64; 2]> = HashMap::new();
+        for region in regions.iter().filter(|region| region.body == body) {
+            for &node in region.facets.iter().flat_map(|facet| &facet.nodes) {
+                let [sum, count] = of_node.entry(node).or_default();
+                (*sum, *count) = (*sum + region.friction, *count + 1.0);
+            }
         }
-    }
+        (nodes, of_node)
+    });
+    let inside =
+        of_sides.find(|(nodes, of_node)| nodes.iter().any(|(node, _)| of_node.contains_key(node)));
+    let Some((nodes, of_node)) = inside else {
+        return elsewhere;
+    };
     let friction = |node: &usize| of_node.get(node).map_or(elsewhere, |[sum, n]| sum / n);
     let values = || nodes.iter().map(|(node, weight)| (friction(node), *weight));
     let mean: f64 = values().map(|(mu, weight)| weight * mu).sum();

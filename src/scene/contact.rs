@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::field::{finite, is_zero};
 use super::itself::two_sides;
-use super::law::{SceneCompliance, SceneLaw, coefficient};
+use super::law::{SceneCompliance, SceneLaw, Side, coefficient};
 use super::rigid_body::Resolved;
 use super::{SceneGroup, SceneObstacle, selection, spelling};
 use crate::body::{Body, Facet};
@@ -179,7 +179,7 @@ impl SceneContact {
                     .to_owned(),
             });
         }
-        let (friction, law) = self.law(place, body, &opposite, bodies)?;
+        let (friction, law) = self.law(place, (body, &facets), &opposite, bodies)?;
         Ok(ContactPair {
             place: place.to_owned(),
             body,
@@ -190,6 +190,7 @@ impl SceneContact {
             rounded: self.rounded.unwrap_or(true),
             gap: self.gap,
             dragged: self.dragged,
+            obstacle_motions: Vec::new(),
         })
     }
 }
@@ -283,7 +284,7 @@ impl SceneContact {
     fn law(
         &self,
         place: &str,
-        body: usize,
+        (body, facets): (usize, &[Facet]),
         opposite: &Opposite,
         bodies: &[Body],
     ) -> Result<(f64, PairLaw), Error> {
@@ -295,9 +296,14 @@ impl SceneContact {
                 (friction, PairLaw::default())
             }
             (None, Some(law)) => {
-                let mut sides = vec![(body, &bodies[body])];
-                if let Opposite::Surface { body, .. } = opposite {
-                    sides.push((*body, &bodies[*body]));
+                let side = |index: usize, facets| Side {
+                    index,
+                    body: &bodies[index],
+                    facets,
+                };
+                let mut sides = vec![side(body, facets)];
+                if let Opposite::Surface { body, facets } = opposite {
+                    sides.push(side(*body, facets));
                 }
                 let dimension = bodies[body].mesh.dimension;
                 law.resolve(&format!("{place}.law"), &sides, dimension)?

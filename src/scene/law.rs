@@ -1,6 +1,6 @@
 //! Laws of contact, as a scene states them.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 use std::slice::from_ref;
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -8,7 +8,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use super::selection;
 use super::selection::{norm, vector};
 use super::table::Table;
-use crate::body::Body;
+use crate::body::{Body, Facet};
 use crate::contact::{PairLaw, Places, Region};
 use crate::error::Error;
 
@@ -71,7 +71,7 @@ pub enum SceneLaw {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         shear_cap: Option<f64>,
     },
-    /// The sides are one, as they are drawn, whatever gap they are drawn with.
+    /// The sides are one, as they are drawn; shear across a distance between them has a moment that nothing bears. A `gap` pulls them together, or presses them apart.
     Bonded,
     /// The sides stay at the distance they are drawn with; friction where they are pressed.
     NoSeparation {
@@ -137,11 +137,11 @@ impl Serialize for NotConvex {
 }
 
 impl SceneLaw {
-    /// The pair's coefficient of friction and its law; `bodies` are those of the contact, the first one named first.
+    /// The pair's coefficient of friction and its law; `sides` are those of the contact, the first one named first.
     pub(super) fn resolve(
         &self,
         place: &str,
-        bodies: &[(usize, &Body)],
+        sides: &[Side<'_>],
         dimension: usize,
     ) -> Result<(f64, PairLaw), Error> {
         let none = PairLaw::default();
@@ -158,7 +158,7 @@ impl SceneLaw {
                 ..
             } => {
                 let (friction, places) =
-                    coefficients(place, (friction, regions, table), bodies, dimension)?;
+                    coefficients(place, (friction, regions, table), sides, dimension)?;
                 let law = capped(*shear_cap);
                 (friction, PairLaw { places, ..law })
             }
@@ -242,6 +242,14 @@ impl SceneLaw {
     }
 }
 
+/// A side of a contact.
+pub(super) struct Side<'a> {
+    /// Number of the body.
+    pub(super) index: usize,
+    pub(super) body: &'a Body,
+    pub(super) facets: &'a [Facet],
+}
+
 type Stated<'a> = (
     &'a Option<f64>,
     &'a BTreeMap<String, f64>,
@@ -252,7 +260,7 @@ type Stated<'a> = (
 fn coefficients(
     place: &str,
     (friction, regions, table): Stated<'_>,
-    bodies: &[(usize, &Body)],
+    sides: &[Side<'_>],
     dimension: usize,
 ) -> Result<(f64, Option<Places>), Error> {
     let place = format!("{place}.coulomb");
@@ -262,7 +270,7 @@ fn coefficients(
             if regions.is_empty() {
                 return Ok((friction, None));
             }
-            let regions = self::regions(&format!("{place}.regions"), regions, bodies)?;
+            let regions = self::regions(&format!("{place}.regions"), regions, sides)?;
             Ok((friction, Some(Places::Regions(regions))))
         }
         (None, Some(table)) if regions.is_empty() => {
@@ -288,26 +296,43 @@ fn coefficients(
     }
 }
 
-/// Regions on the first of the bodies that has all of their groups.
+/// Regions on the first of the sides that has facets of all of their groups.
 fn regions(
     place: &str,
     stated: &BTreeMap<String, f64>,
-    bodies: &[(usize, &Body)],
+    sides: &[Side<'_>],
 ) -> Result<Vec<Region>, Error> {
-    let on = |&(index, body): &(usize, &Body)| {
+    let on = |side: &Side<'_>| {
+        let of_contact: HashSet<Vec<usize>> = side.facets.iter().map(sorted).collect();
         let regions = stated.iter().map(|(group, friction)| {
             let place = format!("{place}.{group}");
+            let friction = coefficient(place.clone(), *friction)?;
+            let mut facets = selection::facets(&side.body.mesh, &place, from_ref(group))?;
+            facets.retain(|facet| of_contact.contains(&sorted(facet)));
+            if facets.is_empty() {
+                return Err(Error::NotAccepted {
+                    place,
+                    found: "a group without facets of the contact".to_owned(),
+                    accepted: "one with facets of either of its sides".to_owned(),
+                });
+            }
             Ok(Region {
-                body: index,
-                friction: coefficient(place.clone(), *friction)?,
-                facets: selection::facets(&body.mesh, &place, from_ref(group))?,
+                body: side.index,
+                facets,
+                friction,
             })
         });
         regions.collect::<Result<Vec<_>, Error>>()
     };
-    let mut found = bodies.iter().map(on);
+    let mut found = sides.iter().map(on);
     let first = found.next().unwrap_or(Ok(Vec::new()));
     first.or_else(|error| found.find_map(Result::ok).ok_or(error))
+}
+
+fn sorted(facet: &Facet) -> Vec<usize> {
+    let mut nodes = facet.nodes.clone();
+    nodes.sort_unstable();
+    nodes
 }
 
 pub(super) fn coefficient(place: String, friction: f64) -> Result<f64, Error> {

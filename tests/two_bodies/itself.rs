@@ -1,7 +1,7 @@
 //! One skin that may meet itself: as two groups of it that are named.
 
 use dpana::body::{CellKind, Group, Mesh, rectangle};
-use dpana::scene::{SceneBody, SceneContact, SceneLoad, SceneSupport};
+use dpana::scene::{SceneBody, SceneContact, SceneLaw, SceneLoad, SceneSupport};
 use dpana::{Solution, solve};
 
 use crate::stacks::{body, certified, scene};
@@ -73,6 +73,35 @@ fn a_clip_that_closes_is_found_as_if_its_two_walls_were_named() {
     let apart = pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
     assert!(apart < 1e-10 * largest, "{apart}");
     assert!((alike.totals.normal - report.totals.normal).abs() < 1e-9);
+}
+
+#[test]
+fn a_region_counts_on_whichever_wall_its_facets_are() {
+    let moved = |contact: SceneContact| {
+        let (solution, _) = pressed(contact);
+        solution.displacements()[0].clone()
+    };
+    let law = |region: &str| SceneLaw::Coulomb {
+        friction: Some(0.1),
+        regions: [(region.to_owned(), 0.4)].into(),
+        table: None,
+        shear_cap: None,
+        static_friction: None,
+    };
+    let between = |friction| SceneContact::between(["clip", "lower"], ["clip", "upper"], friction);
+    let expected = moved(between(0.4));
+    let largest = expected.iter().fold(0.0_f64, |most, u| most.max(u.abs()));
+    let apart = |found: Vec<f64>| {
+        let pairs = found.iter().zip(&expected);
+        pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
+    };
+    assert!(apart(moved(between(0.1))) > 1e-3 * largest);
+    for region in ["lower", "upper"] {
+        for contact in [between(0.1), itself("skin", 0.05)] {
+            let apart = apart(moved(contact.with_law(law(region))));
+            assert!(apart < 1e-10 * largest, "{region}: {apart}");
+        }
+    }
 }
 
 #[test]

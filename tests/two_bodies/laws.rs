@@ -494,6 +494,10 @@ fn laws_that_are_not_convex_or_make_no_sense_are_refused_where_they_stand() {
             &["regions.nowhere"],
         ),
         (
+            r#""law": {"coulomb": {"friction": 0.1, "regions": {"right": 1}}},"#,
+            &["regions.right", "a group without facets of the contact"],
+        ),
+        (
             r#""law": {"coulomb": {"table": {"direction": [0, 0], "values": [[0, 1]]}}},"#,
             &["table.direction"],
         ),
