@@ -111,8 +111,8 @@ pub enum Error {
 
     /// No facet of a contact pair looks at its obstacle.
     #[error(
-        "{place}: none of the {facets} facets faces the obstacle, their outward normals point \
-         away from it; expected at least one facet whose outward normal points towards it"
+        "{place}: none of the {facets} facets faces the obstacle: their outward normals point away from it, \
+         or it ends beside them; expected at least one facet in front of it whose outward normal points towards it"
     )]
     NothingFacesObstacle {
         /// The contact pair, such as `contacts[0]`.

@@ -6,7 +6,7 @@
 //!        loads       Σ ½ (f⁰ + f) · Δu          f⁰, f: before and after the step
 //!        supports    Σ ½ (s⁰ + s) · Δu_p        s: support reactions (K4)
 //!        obstacles   Σ ½ (t⁰ + t) · Δd          d: motion of a rigid other side (C14)
-//!        fits        Σ ½ (t⁰ + t)_N min(g₀, 0)   of the step that assembles the bodies
+//!        fits        Σ ½ (t⁰ + t)_N min(g₀, 0)   of the step that assembles the bodies; g₀ where sides are bonded
 //!                    Σ ½ (t⁰ + t)_N Δg₀          of later ones, where a gap is changed
 //!        elastic     Δ ½ u · K u + Δ ½ t · C t     C: compliance of the surfaces themselves
 //!        dissipation Σ ½ μ (|t_N⁰| + |t_N|) ‖Δu_T‖   over contacts that end pressed; never negative; of other laws
@@ -15,7 +15,7 @@
 //! ```
 //!
 //! A fit is work that somebody does once: bodies that overlap before loading are forced apart by the first
-//! step, as if the other side came in by the overlap.
+//! step, as if the other side came in by the overlap; sides that are bonded over a gap are pulled together.
 //!
 //! Heat and initial stress count as loads, by their nodal forces (B12); `½ u · K u`, which holds the springs of a
 //! foundation, then differs from the energy of the stresses by what the loads alone tell.
@@ -228,10 +228,10 @@ impl ContactStep<'_> {
         let gaps = self.problem.initial_gap().iter().zip(self.opened);
         gaps.enumerate()
             .map(|(i, (gap, opened))| {
-                let moved = if self.assembles {
-                    gap.min(0.0)
-                } else {
-                    *opened
+                let moved = match self.assembles {
+                    true if self.problem.is_bilateral(i) => *gap,
+                    true => gap.min(0.0),
+                    false => *opened,
                 };
                 let [before, after] = self.reaction.map(|t| block(self.problem, i, t)[0]);
                 0.5 * (before + after) * moved
@@ -326,6 +326,31 @@ mod tests {
         };
         assert!((found(true) - 0.3).abs() < 1e-15);
         assert_eq!(found(false), 0.0);
+    }
+
+    #[test]
+    fn what_pulls_sides_together_over_a_gap_works_too() {
+        // Bonded over 0.2 m with 3 N; without a bond such a gap only lets the sides be.
+        let operator = Operator::from_compliance(Mat::identity(1, 1)).unwrap();
+        let problem = ContactProblem::new(&[0], vec![0.0], vec![0.2], vec![0.0], operator).unwrap();
+        let bonded = Law {
+            bilateral: true,
+            ..Law::default()
+        };
+        let bonded = problem.with_laws(vec![bonded]).unwrap();
+        for (problem, expected) in [(bonded, 0.3), (problem, 0.0)] {
+            let none = Account::default();
+            let contacts = ContactStep {
+                problem: &problem,
+                reaction: [&[0.0], &[3.0]],
+                displacement: &[0.2],
+                moved: &[0.0],
+                opened: &[0.0],
+                assembles: true,
+            };
+            let found = Ledger::new(&none, &none, &contacts).unwrap().fits;
+            assert!((found - expected).abs() < 1e-15);
+        }
     }
 
     #[test]

@@ -93,6 +93,7 @@ pub fn solve_within(
             value: total
                 .value(&solution)
                 .map_err(|error| scene.locate(error))?,
+            grain: total.grain(&solution),
         };
         each(&level);
         levels.push(level);

@@ -67,6 +67,18 @@ impl Total {
         }
     }
 
+    /// What it jumps by as one contact opens or slips: the largest area of one, or one; zero where it does not jump.
+    pub(super) fn grain(&self, solution: &Solution) -> f64 {
+        let contacts = solution.condensed().surface().nodes.iter();
+        match self {
+            Self::Column(name) if name.ends_with("_area") => {
+                contacts.fold(0.0, |most, contact| contact.area.max(most))
+            }
+            Self::Column(name) if ["open", "stick", "slip"].contains(&name.as_str()) => 1.0,
+            _ => 0.0,
+        }
+    }
+
     /// Its derivative with respect to a parameter; none where it has none.
     pub(super) fn rate(&self, solution: &Solution, parameter: &str) -> Result<Option<f64>, Error> {
         match self {

@@ -9,7 +9,8 @@
 //! rate counts as 2 at most, and one that is better by more than rates may differ is none until it is seen twice: the last change may
 //! be small by luck, where what a total depends on falls into cells in another way on every mesh. Where totals do not approach each
 //! other with a rate between a half and eight there is no extrapolation, and the last one is wrong by three times the
-//! change to it, at least.
+//! change to it, at least. A total that jumps from contact to contact, such as an area, is wrong by a jump at least, whatever
+//! meshes agree.
 
 use serde::Serialize;
 
@@ -65,6 +66,8 @@ pub struct AccuracyLevel {
     pub contact_unknowns: usize,
     /// The total.
     pub value: f64,
+    /// What it jumps by as one contact opens or slips; zero of totals that do not jump.
+    pub grain: f64,
 }
 
 impl Accuracy {
@@ -83,6 +86,7 @@ impl Accuracy {
         let last = levels.last().map_or(f64::NAN, |level| level.value);
         let judged = judge(&steps);
         let (value, error, rate, safety) = judged.unwrap_or((last, f64::INFINITY, None, SAFETY.1));
+        let error = levels.last().map_or(error, |level| error.max(level.grain));
         Self {
             of: of.to_owned(),
             within,
@@ -178,6 +182,7 @@ mod tests {
                 cells: side * side,
                 contact_unknowns: 2 * side,
                 value,
+                grain: 0.0,
             });
         Accuracy::new("normal", 0.01, 2, levels.collect())
     }
@@ -216,5 +221,10 @@ mod tests {
         let still = family(&[2.0; 3], &[2, 4, 8]);
         assert!(still.reached && still.error == 0.0 && still.rate.is_none());
         assert!(!family(&[2.0; 2], &[2, 4]).reached);
+        // An area that stays the same by whole contacts.
+        let mut levels = still.levels;
+        levels.iter_mut().for_each(|level| level.grain = 0.05);
+        let area = Accuracy::new("contact_area", 0.01, 2, levels);
+        assert!(area.error == 0.05 && !area.reached);
     }
 }

@@ -65,8 +65,8 @@ impl From<&kkt::PairFit> for ReportedPairFit {
 /// What is wrong with the bodies, in words.
 pub(super) fn fault(parts: &ReportParts<'_>) -> String {
     let pairs = parts.pairs.iter().zip(parts.fits);
-    let mut faults = pairs.filter_map(|(pair, fit)| Some((&pair.place, fit.fault()?)));
-    let Some((place, (name, measure))) = faults.next() else {
+    let mut faults = pairs.filter_map(|(pair, fit)| Some((pair, fit.fault()?)));
+    let Some((pair, (name, measure))) = faults.next() else {
         return format!(
             "contacts of the recovered bodies move by {} otherwise than the contact problem says: look \
              for cells of very different size or stiffness in one body",
@@ -78,6 +78,10 @@ pub(super) fn fault(parts: &ReportParts<'_>) -> String {
         "force" => (
             "the forces on its two sides differ by",
             "please report this scene",
+        ),
+        "moment" if pair.law.bilateral => (
+            "the moments on its two sides differ by",
+            "shear that crosses a distance has a moment: draw sides that are one together",
         ),
         "moment" => (
             "the moments on its two sides differ by",
@@ -95,8 +99,8 @@ pub(super) fn fault(parts: &ReportParts<'_>) -> String {
         ),
     };
     format!(
-        "{place}: {what} {value} near contact {}, of which rounding and mesh explain {explained}: {cure}, \
+        "{}: {what} {value} near contact {}, of which rounding and mesh explain {explained}: {cure}, \
          or make the coarser of the two sides the finer one",
-        measure.contact
+        pair.place, measure.contact
     )
 }

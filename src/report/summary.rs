@@ -127,7 +127,7 @@ fn extremes(text: &mut String, report: &Report) -> std::fmt::Result {
     };
     for (name, largest, what) in [
         ("displacement", found.displacement, "node"),
-        ("von Mises", found.von_mises, "cell"),
+        ("von Mises", found.von_mises, "at the centre of cell"),
     ] {
         let (value, place) = (number(largest.value), place(largest, what));
         writeln!(text, "{name:<16}{value} at most, {place}")?;

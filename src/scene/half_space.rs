@@ -446,6 +446,10 @@ impl HalfSpaceScene {
                 return Err(refuse("a map with units of its own".to_owned(), accepted));
             }
             None => 1.0,
+            Some(unit) if map.unit.is_none() && map.size.is_none() => {
+                let accepted = "`scale` alone, as the file names no unit".to_owned();
+                return Err(refuse(format!("unit `{unit}`"), accepted));
+            }
             Some(unit) => unit_in_metres(unit).ok_or_else(|| {
                 refuse(
                     format!("unit `{unit}`"),

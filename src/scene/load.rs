@@ -232,10 +232,29 @@ impl SceneLoad {
                 moment,
                 at: on,
                 group,
+            } if model == Model::Axisymmetric && on.is_some() => Err(Error::NotAccepted {
+                place: at("at"),
+                found: "a point".to_owned(),
+                accepted: "no `at`, as a ring carries its force all around".to_owned(),
+            }),
+            Self::Spread {
+                force,
+                moment,
+                at: on,
+                group,
             } => Ok(Load::Spread {
                 wrench: wrench(place, [force, moment, on].map(Option::as_deref), model)?,
                 facets: facets(group)?,
             }),
+            Self::Gravity { gravity, .. }
+                if model == Model::Axisymmetric && gravity.first().is_some_and(|g| *g != 0.0) =>
+            {
+                Err(Error::OutOfRange {
+                    place: at("gravity[0]"),
+                    value: gravity[0],
+                    accepted: "0, for across the axis the weight of a ring is no load of a body of revolution",
+                })
+            }
             Self::Gravity { gravity, group } => Ok(Load::Gravity {
                 acceleration: vector(&at("gravity"), gravity, axes)?,
                 cells: cells(group)?,

@@ -8,7 +8,7 @@
 //! | facets that turn too far, or stand off by as much as bodies approach (V1) | `facets` |
 //! | one contact that carries all, sides in each other between contacts, deep obstacles, nothing that touches, a first step | `resolution` |
 //! | facets that meet the same side in two contacts, contacts of two that have one motion | `stated_twice` |
-//! | strain, rotation and slip beyond small displacements | `small_displacement` |
+//! | strain, rotation, slip and approach beyond small displacements | `small_displacement` |
 
 mod facets;
 mod resolution;
@@ -50,9 +50,20 @@ pub fn notes(parts: &ReportParts<'_>) -> Vec<String> {
 
 /// Contacts of a pair that carry.
 fn pressed<'a>(parts: &ReportParts<'a>, pair: usize) -> Vec<&'a ContactNode> {
-    let contacts = parts.surface.nodes.iter();
-    let pressed = contacts
-        .zip(&parts.outcome.verdict.status)
-        .filter(|(contact, status)| contact.pair == pair && **status != ContactStatus::Open);
-    pressed.map(|(contact, _)| contact).collect()
+    pressed_of(parts, pair)
+        .map(|i| &parts.surface.nodes[i])
+        .collect()
+}
+
+/// Their numbers.
+fn pressed_of<'p>(parts: &'p ReportParts<'_>, pair: usize) -> impl Iterator<Item = usize> + 'p {
+    let contacts = parts
+        .surface
+        .nodes
+        .iter()
+        .zip(&parts.outcome.verdict.status);
+    let pressed = contacts.enumerate().filter(move |(_, (contact, status))| {
+        contact.pair == pair && **status != ContactStatus::Open
+    });
+    pressed.map(|(i, _)| i)
 }

@@ -67,17 +67,43 @@ pub(super) fn notes(parts: &ReportParts<'_>) -> Vec<String> {
         })
     }));
     notes.extend((0..parts.pairs.len()).filter_map(|pair| slip(parts, pair)));
+    notes.extend((0..parts.pairs.len()).filter_map(|pair| far(parts, pair)));
     notes
+}
+
+/// A contact that presses after it came from farther than its body is large.
+fn far(parts: &ReportParts<'_>, pair: usize) -> Option<String> {
+    let pressed = super::pressed_of(parts, pair);
+    let came = pressed.map(|i| (along_and_across(parts, i)[0], i));
+    let (came, i) = came.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let contact = &parts.surface.nodes[i];
+    let body = &parts.bodies[contact.body];
+    let extent = |axis: usize| {
+        let at = body.mesh.nodes.iter().map(|node| node[axis]);
+        let (low, high) = at.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+            (x.min(low), x.max(high))
+        });
+        high - low
+    };
+    let size = [0, 1, 2].map(extent).into_iter().fold(0.0, f64::max);
+    (came > size).then(|| {
+        format!(
+            "{}: node {} presses after coming from {} away, farther than body `{}` is large ({}): beyond small \
+             displacements; see whether it is meant to fall",
+            parts.pairs[pair].place,
+            contact.node,
+            significant(came),
+            body.name,
+            significant(size)
+        )
+    })
 }
 
 /// The contact of a pair that slips farthest.
 fn slip(parts: &ReportParts<'_>, pair: usize) -> Option<String> {
     let (limit, of) = limit(parts, pair)?;
-    let contacts = parts.surface.nodes.iter().enumerate();
-    let pressed = contacts.filter(|&(i, contact)| {
-        contact.pair == pair && parts.outcome.verdict.status[i] != ContactStatus::Open
-    });
-    let slips = pressed.map(|(i, contact)| (tangential(parts, i), contact.node));
+    let pressed = super::pressed_of(parts, pair);
+    let slips = pressed.map(|i| (along_and_across(parts, i)[1], parts.surface.nodes[i].node));
     let (slip, node) = slips.max_by(|a, b| a.0.total_cmp(&b.0))?;
     (slip > limit).then(|| {
         format!(
@@ -132,9 +158,9 @@ fn size(body: &Body, contact: &ContactNode) -> Option<f64> {
     }
 }
 
-/// Length of the displacement along the other side since before loading; since the last step where that is
-/// an obstacle, which may have moved along.
-fn tangential(parts: &ReportParts<'_>, i: usize) -> f64 {
+/// Displacement towards the other side since before loading, and the length of that along it; since the last step where that
+/// is an obstacle, which may have moved along.
+fn along_and_across(parts: &ReportParts<'_>, i: usize) -> [f64; 2] {
     let contact = &parts.surface.nodes[i];
     let mut u = relative_displacement(contact, parts.displacements, parts.dimension());
     if let (None, Some(origin)) = (&contact.opposite, parts.origins.get(i)) {
@@ -143,5 +169,5 @@ fn tangential(parts: &ReportParts<'_>, i: usize) -> f64 {
     let normal = contact.frame[0];
     let along: f64 = u.iter().zip(normal).map(|(u, n)| u * n).sum();
     let rest = [0, 1, 2].map(|axis| u[axis] - along * normal[axis]);
-    rest.iter().fold(0.0, |size: f64, u| size.hypot(*u))
+    [along, rest.iter().fold(0.0, |size: f64, u| size.hypot(*u))]
 }

@@ -58,7 +58,7 @@ fn extremes_and_support_forces_are_those_of_a_column_and_nothing_is_noted() {
     assert!(straight.notes.is_empty(), "{:?}", straight.notes);
     let said = straight.summary();
     assert!(
-        said.contains("von Mises       2.00000 at most, cell"),
+        said.contains("von Mises       2.00000 at most, at the centre of cell"),
         "{said}"
     );
     assert!(said.contains("by bodies[0].supports[0]"), "{said}");
