@@ -2,8 +2,10 @@
 //!
 //! ```text
 //! (C25)  c = c' A,  a = a' A,  τ = τ' A,  C = C'/A        A: tributary area, primed: per area
-//!        ellipse: the direction's part in the tangent plane; of one tangent the radius along it
+//!        ellipse: the direction's part in the tangent plane; of one tangent half its width along it
 //! ```
+
+use std::ops::Range;
 
 use crate::contact::{ContactNode, ContactPair, ContactSurface, PairLaw};
 use crate::error::Error;
@@ -11,6 +13,9 @@ use crate::problem::{ContactProblem, Ellipse, Law};
 
 /// Least part of a direction in the tangent plane.
 const LEANING: f64 = 1e-6;
+
+/// Tangential compliance of a contact that supports hold along the surface, over its normal one.
+const HELD: f64 = 1e-6;
 
 /// Coefficient of friction per contact.
 pub(crate) fn friction(surface: &ContactSurface, pairs: &[ContactPair]) -> Vec<f64> {
@@ -23,7 +28,7 @@ pub(crate) fn friction(surface: &ContactSurface, pairs: &[ContactPair]) -> Vec<f
         .collect()
 }
 
-/// The same problem under the laws of its pairs; as it is where none has one.
+/// The same problem under the laws of its pairs, and layers where supports hold; as it is where there are neither.
 pub(super) fn under_laws(
     problem: ContactProblem,
     surface: &ContactSurface,
@@ -39,14 +44,33 @@ pub(super) fn under_laws(
             ..pair.law.clone()
         } != plain
     };
-    if !pairs.iter().any(stated) {
+    let held = held(&problem);
+    if !pairs.iter().any(stated) && held.iter().all(|layer| *layer == 0.0) {
         return Ok(problem);
     }
-    let laws = surface
-        .nodes
-        .iter()
-        .map(|contact| law(&pairs[contact.pair], contact));
-    problem.with_laws(laws.collect::<Result<_, _>>()?)
+    let laws = surface.nodes.iter().zip(held).map(|(contact, layer)| {
+        let mut law = law(&pairs[contact.pair], contact)?;
+        if law.compliance[1] == 0.0 {
+            law.compliance[1] = layer;
+        }
+        Ok(law)
+    });
+    problem.with_laws(laws.collect::<Result<_, Error>>()?)
+}
+
+/// Tangential compliance, in m/N, of contacts with friction that supports hold along the surface, and zero of all others: where
+/// nothing gives way, friction would not be unique while the sides stand still, nor go on from what it was.
+fn held(problem: &ContactProblem) -> Vec<f64> {
+    let g = problem.compliance();
+    let diagonal = |unknowns: Range<usize>| unknowns.map(|k| g[(k, k)]);
+    let largest = diagonal(0..problem.unknowns()).fold(0.0, f64::max);
+    let layers = problem.blocks().map(|block| {
+        let rigid = diagonal(block.start + 1..block.end).any(|compliance| compliance == 0.0);
+        let normal = g[(block.start, block.start)];
+        let like = if normal > 0.0 { normal } else { largest };
+        if rigid { HELD * like } else { 0.0 }
+    });
+    layers.collect()
 }
 
 fn law(pair: &ContactPair, contact: &ContactNode) -> Result<Law, Error> {
@@ -108,10 +132,11 @@ fn direction(law: &PairLaw, contact: &ContactNode) -> Option<[f64; 2]> {
     (size > LEANING).then(|| [x / size, y / size])
 }
 
-/// What an ellipse makes of the coefficient where a support leaves one tangent: its radius along that.
+/// What an ellipse makes of the coefficient where a support leaves one tangent: half its width along that, as the support
+/// bears what friction does across.
 fn narrowed(law: &PairLaw, contact: &ContactNode) -> f64 {
     match (law.ellipse, direction(law, contact), contact.tangents) {
-        (Some((ratio, _)), Some([x, y]), 1) => x.hypot(y / ratio).recip(),
+        (Some((ratio, _)), Some([x, y]), 1) => x.hypot(y * ratio),
         _ => 1.0,
     }
 }

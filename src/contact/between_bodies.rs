@@ -250,22 +250,24 @@ fn still_directions(scene: &Bodies<'_>, own: usize, other: usize, node: &MortarN
     Directions(candidates)
 }
 
-/// Whether supports move the sides against each other along a direction, along which friction then acts.
+/// Whether supports move a corner and what it meets against each other along a direction, along which friction then acts.
 fn drawn_apart(
     scene: &Bodies<'_>,
     [own, other]: [usize; 2],
     node: &MortarNode,
     direction: &Vector3<f64>,
 ) -> bool {
-    let near = node.own.iter().map(|&(near, weight)| (own, near, weight));
-    let met = node.met().map(|(across, weight)| (other, across, -weight));
-    let parts = near
-        .chain(met)
-        .map(|(body, at, weight)| weight * scene.given_along(body, at, direction));
-    let (sum, size) = parts.fold((0.0, 0.0), |(sum, size): (f64, f64), part| {
-        (sum + part, size + part.abs())
+    let met = node.met().map(|(across, weight)| (across, weight.abs()));
+    let held = met.filter(|(across, _)| scene.held(other, *across).hold(direction));
+    let given = held.map(|(across, weight)| (scene.given_along(other, across, direction), weight));
+    let (sum, weights) = given.fold((0.0, 0.0), |(sum, all), (u, weight)| {
+        (sum + weight * u, all + weight)
     });
-    sum.abs() > ROUNDED * size
+    if weights == 0.0 || !scene.held(own, node.node).hold(direction) {
+        return false;
+    }
+    let (corner, across) = (scene.given_along(own, node.node, direction), sum / weights);
+    (corner - across).abs() > ROUNDED * corner.abs().max(across.abs())
 }
 
 /// The direction without its components along some others; none if little is left.

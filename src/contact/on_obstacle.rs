@@ -266,9 +266,13 @@ impl View<'_> {
             });
         }
         let position = self.body.mesh.nodes[footing.node];
-        supported.0.retain(|direction| {
-            moved(direction).is_none() && !pair.moves_along(position, direction)
-        });
+        let moves = |direction: &Vector3<f64>| {
+            moved(direction).is_some() || pair.moves_along(position, direction)
+        };
+        // Under an ellipse friction also acts across the motion.
+        let all = pair.law.ellipse.is_some()
+            && (refused.is_some() || pair.slides_along(position, normal.into()));
+        supported.0.retain(|direction| !(all || moves(direction)));
         Ok(())
     }
 }

@@ -86,12 +86,19 @@ impl ContactPair {
 
     /// Whether the obstacle may move along a direction there, by more than rounding of its motions.
     pub(super) fn moves_along(&self, position: [f64; 3], direction: &Vector3<f64>) -> bool {
-        let moved = self
-            .obstacle_motions
-            .iter()
-            .map(|motion| Vector3::from(motion.at(position)));
-        let mut along = moved.map(|moved| (moved.dot(direction).abs(), moved.norm()));
-        along.any(|(along, size)| along > ALONG * size)
+        let mut motions = self.motions_at(position);
+        motions.any(|moved| moved.dot(direction).abs() > ALONG * moved.norm())
+    }
+
+    /// Whether it may move across a normal there.
+    pub(super) fn slides_along(&self, position: [f64; 3], normal: Vector3<f64>) -> bool {
+        let mut motions = self.motions_at(position);
+        motions.any(|moved| moved.cross(&normal).norm() > ALONG * moved.norm())
+    }
+
+    fn motions_at(&self, position: [f64; 3]) -> impl Iterator<Item = Vector3<f64>> {
+        let motions = self.obstacle_motions.iter();
+        motions.map(move |motion| Vector3::from(motion.at(position)))
     }
 
     /// Whether it is one of two bodies, whichever it names first.

@@ -110,6 +110,82 @@ fn sides_that_supports_move_against_each_other_rub() {
 }
 
 #[test]
+fn friction_goes_on_from_what_it_was_while_nothing_moves() {
+    // Dragged to 6 = μ N, then pressed by half: it slips back to 3; pressed by three quarters again it stays; dragged on it grows.
+    let history = |resolve: Option<f64>| {
+        let floor: Value = serde_json::from_str(FLOOR).unwrap();
+        let mut scene = json!({
+            "bodies": [block([4, 2], json!([{"group": "bottom", "displacement": [0, null]}]))],
+            "contacts": [{"group": "bottom", "friction": 0.6, "obstacle": floor}],
+            "steps": {"at": [1, 2, 3, 4],
+                      "obstacles": {"contacts[0]": [[1, 0.01, 0], [2, 0.01, 0], [3, 0.01, 0], [4, 0.02, 0]]},
+                      "factors": {"bodies[0].loads[0]": [[1, 1], [2, 0.5], [3, 0.75], [4, 0.75]]}}
+        });
+        if let Some(part) = resolve {
+            scene["steps"]["resolve"] = json!(part);
+        }
+        let mut friction = Vec::new();
+        solve_steps(&read(&scene), None, |solution| {
+            friction.push(solution.report()?.totals.friction[0]);
+            Ok(())
+        })
+        .unwrap();
+        friction
+    };
+    for resolve in [None, Some(1e-3)] {
+        let found = history(resolve);
+        for (found, expected) in found.iter().zip([6.0, 3.0, 3.0, 4.5]) {
+            assert!(
+                (found - expected).abs() < 1e-4,
+                "{resolve:?}: {found}, {expected}"
+            );
+        }
+    }
+}
+
+#[test]
+fn two_bodies_that_supports_shift_together_rub_as_those_that_stand() {
+    // Quadratic corners move with nodes that are free.
+    let half = |shift: f64| {
+        let body = |name: &str, y: [f64; 2], cells: [usize; 2], kind: &str, supports: Value| {
+            json!({
+                "name": name,
+                "mesh": {"rectangle": {"x": [0, 2], "y": y, "cells": cells, "cell": kind}},
+                "model": "plane_strain",
+                "materials": [{"young": 1000, "poisson": 0.3}],
+                "supports": supports
+            })
+        };
+        let mut up = body(
+            "up",
+            [0.0, 1.0],
+            [4, 2],
+            "tri6",
+            json!([{"group": "left", "displacement": [shift, null]}]),
+        );
+        up["loads"] =
+            json!([{"group": "top", "pressure": 5}, {"group": "right", "traction": [1, 0]}]);
+        let low = body(
+            "low",
+            [-1.0, 0.0],
+            [3, 2],
+            "quad8",
+            json!([
+            {"group": "left", "displacement": [shift, null]}, {"group": "bottom", "displacement": [shift, 0]}]),
+        );
+        let scene = read(&json!({
+            "bodies": [up, low],
+            "contacts": [{"body": "up", "group": "bottom", "against": {"body": "low", "group": "top"}, "friction": 0.3}]
+        }));
+        let solution = solve(&scene).unwrap();
+        assert_eq!(solution.status(), Status::Certified);
+        solution.report().unwrap().totals.friction[0]
+    };
+    let (still, shifted) = (half(0.0), half(0.013));
+    assert!((still - shifted).abs() < 1e-9, "{still} {shifted}");
+}
+
+#[test]
 fn in_space_friction_opposes_the_whole_motion() {
     let scene = read(&json!({
         "bodies": [{
@@ -131,6 +207,36 @@ fn in_space_friction_opposes_the_whole_motion() {
         (friction[0] - 3.6).abs() + (friction[1] - 4.8).abs() < 1e-9,
         "{friction:?}"
     );
+}
+
+#[test]
+fn under_an_ellipse_friction_acts_across_the_motion_too() {
+    // t = N M² s / |M s|, M = diag(0.1, 0.5) along 45 degrees: the support bears what acts across.
+    for group in ["body", "bottom"] {
+        let scene = read(&json!({
+            "bodies": [{
+                "mesh": {"box": {"x": [0, 1], "y": [0, 1], "z": [0, 1], "cells": [2, 2, 2]}},
+                "materials": [{"young": 1e6, "poisson": 0}],
+                "supports": [{"group": group, "displacement": [null, 0, null]},
+                             {"group": "top", "displacement": [0, null, null]}],
+                "loads": [{"group": "top", "pressure": 20}]
+            }],
+            "contacts": [{"group": "bottom",
+                          "law": {"orthotropic": {"friction": [0.1, 0.5], "direction": [1, 1, 0]}},
+                          "obstacle": {"plane": {"point": [0, 0, 0], "normal": [0, 0, 1]}}}],
+            "steps": {"at": [1], "obstacles": {"contacts[0]": [[1, 0.5, 0, 0]]}}
+        }));
+        let report = solve_steps(&scene, None, |_| Ok(()))
+            .unwrap()
+            .report()
+            .unwrap();
+        let friction = &report.totals.friction;
+        let bound = 0.13_f64.sqrt();
+        let expected = [20.0 * 0.13 / bound, -20.0 * 0.12 / bound];
+        for (found, expected) in friction.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-3, "{group}: {friction:?}");
+        }
+    }
 }
 
 #[test]
