@@ -15,6 +15,7 @@ use nalgebra::Vector3;
 
 use super::held::Directions;
 use super::mirror::Mirrors;
+use super::repeated::Seams;
 use super::rounding::{Bulges, Turns};
 use super::{ContactNode, ContactPair, Obstacle};
 use crate::body::{Body, Dependence, Facet, FacetGeometry, Mesh};
@@ -64,7 +65,8 @@ impl Bodies<'_> {
         let turns = boundary.turns.get_or_init(|| {
             let held = |node| self.held(body, node);
             let mirrors = Mirrors::new(mesh, &boundary.facets, held);
-            Turns::new(mesh, &boundary.facets, &mirrors)
+            let seams = Seams::new(&self.bodies[body]);
+            Turns::new(mesh, &boundary.facets, &mirrors, &seams)
         });
         turns.bulges(mesh, facets, rounded)
     }

@@ -1,7 +1,8 @@
 //! Contacts at the two ends of a surface that repeats: they are one.
 //!
 //! Nodes of periodic faces (B14) move alike, so that how their contacts share a force is not unique. The contact
-//! of one of them stands for both, with the area of both.
+//! of one of them stands for both, with the area of both. Between two bodies it moves with the mean of what both move with; where
+//! they repeat around an axis, whose turn no weight can make, with what it moves with itself.
 
 use std::collections::HashMap;
 
@@ -62,6 +63,50 @@ fn ties(body: &Body) -> impl Iterator<Item = &TiedPairs> {
         Tie::Pairs(tied) => Some(tied),
         Tie::Rigid(_) => None,
     })
+}
+
+/// The faces on which a body repeats, by node.
+#[derive(Debug, Default)]
+pub(super) struct Seams(HashMap<usize, Vec<Image>>);
+
+/// What a node moves with at the other end.
+#[derive(Debug)]
+pub(super) struct Image {
+    pub(super) node: usize,
+    /// Turns what is there to what is seen here.
+    pub(super) turn: Matrix3<f64>,
+    /// Number of the tie, and whether it is the face that depends.
+    face: (usize, bool),
+}
+
+impl Seams {
+    pub(super) fn new(body: &Body) -> Self {
+        let mut seams = Self::default();
+        for (number, tied) in ties(body).enumerate() {
+            let turn = rotation(tied);
+            for &[a, b] in &tied.pairs {
+                let faces = [(a, b, turn.transpose(), false), (b, a, turn, true)];
+                for (here, node, turn, depends) in faces {
+                    let face = (number, depends);
+                    seams
+                        .0
+                        .entry(here)
+                        .or_default()
+                        .push(Image { node, turn, face });
+                }
+            }
+        }
+        seams
+    }
+
+    /// The image of a node in whose face another one lies as well.
+    pub(super) fn beyond(&self, node: usize, other: usize) -> Option<&Image> {
+        let of_other = self.0.get(&other)?;
+        let images = self.0.get(&node)?;
+        images
+            .iter()
+            .find(|image| of_other.iter().any(|of| of.face == image.face))
+    }
 }
 
 /// How a body repeats, and how what it meets does.
@@ -132,10 +177,12 @@ impl Seam {
                     mix(&mut whole.own, &gone.own);
                 }
             }
-            (Across::Alike, Some(opposite), Some(far)) if parallel && turned < TURNED => {
-                // A force goes on as the means of both ends, lest it have a moment.
-                mix(&mut whole.own, &gone.own);
-                mix(&mut opposite.nodes, &far.nodes);
+            (Across::Alike, Some(opposite), Some(far)) if turned < TURNED => {
+                if parallel {
+                    // A force goes on as the means of both ends, lest it have a moment.
+                    mix(&mut whole.own, &gone.own);
+                    mix(&mut opposite.nodes, &far.nodes);
+                }
                 if turned > ROUND_OFF {
                     whole.frame =
                         self.frame(normals[0] * shares[0] + normals[1] * shares[1], kept)?;
@@ -163,16 +210,24 @@ fn rotation(tied: &TiedPairs) -> Matrix3<f64> {
     Matrix3::from_fn(|i, j| tied.rotation[i][j])
 }
 
-/// Whether two bodies repeat along the same way, without a turn.
+/// Whether two bodies repeat along the same way, or around the same axis by the same angle, from either end.
 fn repeat_alike(tied: [&TiedPairs; 2], bodies: [&Body; 2]) -> bool {
-    let shifts = [0, 1].map(|k| {
+    let maps = [0, 1].map(|k| {
         let ends = tied[k].pairs.first()?;
         let [a, b] = ends.map(|node| Vector3::from(bodies[k].mesh.nodes[node]));
-        (rotation(tied[k]) == Matrix3::identity()).then(|| b - a)
+        let turn = rotation(tied[k]);
+        Some((turn, b - turn * a, a.norm().max(b.norm())))
     });
-    let [Some(one), Some(other)] = shifts else {
+    let [Some((turn, shift, size)), Some((other, way, far))] = maps else {
         return false;
     };
-    let apart = (one - other).norm().min((one + other).norm());
-    apart < ROUND_OFF * one.norm()
+    let scale = match turn == Matrix3::identity() {
+        true => shift.norm(),
+        false => size.max(far),
+    };
+    let same = |turn: Matrix3<f64>, shift: Vector3<f64>| {
+        (turn - other).norm() < ROUND_OFF && (shift - way).norm() < ROUND_OFF * scale
+    };
+    let back = turn.transpose();
+    same(turn, shift) || same(back, -(back * shift))
 }

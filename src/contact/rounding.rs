@@ -36,6 +36,7 @@ use std::collections::HashMap;
 use nalgebra::Vector3;
 
 use super::mirror::{Mirrors, image};
+use super::repeated::Seams;
 use super::turn::{CORNER, FLAT, STRAIGHT, UNLIKE, is_straight, smaller, turn};
 use super::turning_edges::turning_edges;
 use crate::body::{Facet, Mesh};
@@ -163,10 +164,10 @@ impl Curvature {
 }
 
 impl Turns {
-    /// Of the facets of a whole boundary in outward order, which go on behind planes of symmetry.
-    pub(super) fn new(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> Self {
+    /// Of the facets of a whole boundary in outward order, which go on behind planes of symmetry and, in the plane, beyond seams.
+    pub(super) fn new(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors, seams: &Seams) -> Self {
         let curvature = match mesh.dimension {
-            2 => curvatures(mesh, boundary, mirrors),
+            2 => curvatures(mesh, boundary, (mirrors, seams)),
             _ => HashMap::new(),
         };
         let edges = match mesh.dimension {
@@ -240,9 +241,14 @@ impl Turns {
 }
 
 /// κ of the nodes of a boundary of lines; none at corners, zero at kinks: an arc turns at three nodes on end, at least.
-fn curvatures(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> HashMap<usize, Curvature> {
+fn curvatures(
+    mesh: &Mesh,
+    boundary: &[Facet],
+    (mirrors, seams): (&Mirrors, &Seams),
+) -> HashMap<usize, Curvature> {
     let mut found: HashMap<usize, Curvature> = HashMap::new();
-    for (node, ends) in joints(mesh, boundary) {
+    let joints: HashMap<usize, [usize; 2]> = joints(mesh, boundary).collect();
+    for (&node, &ends) in &joints {
         let mut lines = [span(mesh, ends[0], node), span(mesh, node, ends[1])];
         let planes = lines.map(|line| {
             let across = line.cross(&Vector3::z()).try_normalize(0.0)?;
@@ -258,6 +264,18 @@ fn curvatures(mesh: &Mesh, boundary: &[Facet], mirrors: &Mirrors) -> HashMap<usi
         if let Some((real, plane)) = seen {
             lines[1 - real] = -image(lines[real], &plane);
             ends[1 - real] = ends[real];
+        }
+        for side in 0..2 {
+            // Beyond a seam the line at the node's image stands for it.
+            let Some(image) = seams.beyond(node, joints[&node][side]) else {
+                continue;
+            };
+            let Some(end) = joints.get(&image.node).map(|ends| ends[side]) else {
+                continue;
+            };
+            let line = span(mesh, image.node, end);
+            lines[side] = image.turn * if side == 0 { -line } else { line };
+            ends[side] = end;
         }
         let turn = turn(lines[0], lines[1]);
         if turn.abs() < CORNER {
@@ -323,7 +341,8 @@ mod tests {
                 nodes: vec![k, (k + 1) % points.len()],
             })
             .collect();
-        Turns::new(&mesh, &lines, &Mirrors::default()).bulges(&mesh, &lines, true)
+        Turns::new(&mesh, &lines, &Mirrors::default(), &Seams::default())
+            .bulges(&mesh, &lines, true)
     }
 
     /// Their sagittas, positive outwards.

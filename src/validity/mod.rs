@@ -33,6 +33,7 @@ pub fn notes(parts: &ReportParts<'_>) -> Vec<String> {
         let between = || resolution::between_contacts(parts, index);
         let found = [
             resolution::single(parts, &pressed),
+            resolution::beside_a_seam(parts, &pressed),
             straight.or_else(between),
             facets::corner(parts, index, &pressed),
             resolution::deep(parts, index),

@@ -1,8 +1,11 @@
 //! What contacts and steps leave in doubt: a pressure on one contact alone, an obstacle deep in a body,
-//! nothing that touches, contacts that a first step closes.
+//! nothing that touches, contacts that a first step closes, seams around an axis.
 
-use nalgebra::Vector3;
+use std::collections::HashSet;
 
+use nalgebra::{Matrix3, Vector3};
+
+use crate::body::Tie;
 use crate::contact::{ContactNode, Opposite};
 use crate::kkt::ContactStatus;
 use crate::report::{ReportParts, significant};
@@ -22,6 +25,9 @@ const OF_MOTION: f64 = 0.1;
 /// Part of the normal force on contacts that closed in the first step from which a note says so.
 const CLOSED: f64 = 0.01;
 
+/// Weight of a node that is none.
+const WEIGHT: f64 = 1e-6;
+
 /// One contact that carries all.
 pub(super) fn single(parts: &ReportParts<'_>, pressed: &[&ContactNode]) -> Option<String> {
     let [contact] = pressed else { return None };
@@ -37,6 +43,35 @@ pub(super) fn single(parts: &ReportParts<'_>, pressed: &[&ContactNode]) -> Optio
         "one contact alone carries, node {}: its force is right, its pressure is that force over an area of \
          the mesh's making; refine there for a pressure",
         contact.node
+    ))
+}
+
+/// A contact at a seam around an axis that meets what is beside the seam.
+pub(super) fn beside_a_seam(parts: &ReportParts<'_>, pressed: &[&ContactNode]) -> Option<String> {
+    let straight: [[f64; 3]; 3] = Matrix3::identity().into();
+    let turned = |body: usize| -> HashSet<usize> {
+        let ties = parts.bodies[body].ties.iter().filter_map(|tie| match tie {
+            Tie::Pairs(tied) if tied.rotation != straight => Some(tied),
+            _ => None,
+        });
+        ties.flat_map(|tied| tied.pairs.as_flattened())
+            .copied()
+            .collect()
+    };
+    let first = pressed.first()?;
+    let seams = [first.body, first.opposite.as_ref()?.body].map(turned);
+    let beside = pressed.iter().find(|contact| {
+        let met = contact.opposite.iter().flat_map(|opposite| &opposite.nodes);
+        seams[0].contains(&contact.node)
+            && met
+                .clone()
+                .any(|(node, weight)| weight.abs() > WEIGHT && !seams[1].contains(node))
+    })?;
+    Some(format!(
+        "node {} presses at a seam around an axis where the sides do not match: of the other side it meets what is on its own \
+         side of the seam alone, and pressures within a facet of it are less sure than elsewhere; let facets of both sides \
+         end at the seam and be as long there, or put the seam where nothing touches",
+        beside.node
     ))
 }
 

@@ -123,6 +123,62 @@ fn a_sector_that_repeats_around_its_axis_is_the_whole_ring() {
     assert!((mean / expected - 1.0).abs() < 0.02, "{mean} {expected}");
 }
 
+/// Sectors of two rings, of which the outer one is too narrow.
+fn shrunk_on(sectors: f64, around: [usize; 2]) -> Report {
+    let angle = 2.0 * PI / sectors;
+    let axis = || SceneAxis {
+        point: vec![0.0, 0.0],
+        direction: None,
+    };
+    let ring = |name: &str, grow: f64, cells: usize| {
+        let mut mesh = sector(CellKind::Quad4, [3, cells], [0.3, 0.3 + angle]);
+        for x in &mut mesh.nodes {
+            let radius = x[0].hypot(x[1]);
+            let grown = (radius + grow) / radius;
+            *x = x.map(|x| x * grown);
+        }
+        body(name, mesh, 1000.0, 0.3)
+            .with_periodic(ScenePeriodic::turned("bottom", "top", axis(), angle))
+            .with_support(SceneSupport::around(
+                if grow == 0.0 { "left" } else { "right" },
+                axis(),
+                &[None, Some(0.0)],
+            ))
+    };
+    let bodies = vec![ring("shaft", 0.0, around[0]), ring("hub", 1.0, around[1])];
+    let fit = SceneContact::between(["shaft", "right"], ["hub", "left"], 0.2).with_gap(-0.01);
+    certified(&scene(bodies, vec![fit])).1
+}
+
+#[test]
+fn sectors_of_two_rings_press_evenly_at_their_seam_as_well() {
+    // Facets of 2.5 to 5 degrees, whose roundness goes on beyond the seam.
+    for (around, off, beside) in [
+        ([6, 6], 1e-8, false),
+        ([12, 9], 0.03, false),
+        ([12, 8], 0.03, false),
+        ([9, 12], 0.03, true),
+    ] {
+        let report = shrunk_on(12.0, around);
+        let mean = report.totals.normal / report.totals.contact_area;
+        for contact in &report.contacts {
+            let pressure = contact.pressure.unwrap();
+            assert!(
+                (pressure / mean - 1.0).abs() < off,
+                "{around:?}: {pressure} {mean}"
+            );
+        }
+        let mut notes = report.notes.iter();
+        let noted = notes.any(|note| note.contains("at a seam around an axis"));
+        assert_eq!(noted, beside, "{around:?}");
+        let finer = shrunk_on(12.0, [12, 12]).totals.normal;
+        assert!(
+            (report.totals.normal / finer - 1.0).abs() < 0.02,
+            "{around:?}: {finer}"
+        );
+    }
+}
+
 #[test]
 fn faces_that_do_not_match_are_refused_with_the_node() {
     let mesh = |bent: f64| {
