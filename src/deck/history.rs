@@ -225,7 +225,10 @@ impl Walk<'_, '_> {
         let before = self.entries.range_mut((first, None)..);
         let before = before.take_while(|((slot, _), _)| *slot <= last);
         for (_, entry) in before.filter(|(_, entry)| entry.step != step) {
-            (entry.stated, entry.amplitude, entry.at_once) = (0.0, None, at_once);
+            // Whichever card comes first.
+            let again = entry.stated == 0.0 && entry.amplitude.is_none();
+            entry.at_once = at_once || again && entry.at_once;
+            (entry.stated, entry.amplitude) = (0.0, None);
         }
     }
 

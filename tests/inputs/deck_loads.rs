@@ -74,6 +74,15 @@ fn loads_of_one_step_add_up_each_with_its_own_amplitude() {
         1,
         &[[0.1, -2.0], [0.4, -2.0], [0.0, -2.1]],
     );
+    // Restated with and without an amplitude, whichever card comes first: at once, also within the step.
+    let model_of_two =
+        "*AMPLITUDE, NAME=A\n0., 0., 1., 2.\n*AMPLITUDE, NAME=T\n0., 0., 0.5, 0.5, 1., 1.\n";
+    let cards = ["*CLOAD, AMPLITUDE=T\n13, 1, 0.1\n", "*CLOAD\n13, 1, 0.2\n"];
+    for [first, second] in [[0, 1], [1, 0]].map(|order| order.map(|card| cards[card])) {
+        let text = format!("{PRESSED}*CLOAD, AMPLITUDE=A\n13, 1, 0.4\n--\n{first}{second}");
+        let expected = [[0.8, -2.0], [0.15, -2.0], [0.3, -2.0]];
+        assert_loads(&squares(model_of_two, &text), 1, &expected);
+    }
     // m ω² r of 4.5 down and, from another axis, of 4.5 to the right; both at once and again, then the other way.
     let both = |amplitude: &str| {
         format!(
