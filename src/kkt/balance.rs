@@ -24,8 +24,8 @@ const UNCARRIED: f64 = 1e-6;
 const ROUNDED: f64 = 1e-12;
 
 /// as long as the sum of all forces is less than this part of what acts: of a body thousands of times as long as thick,
-/// rounding may be larger than all of it. Contact forces that are themselves rounding do not count, nor loads below the
-/// last digit of the forces of the cells.
+/// rounding may be larger than all of it. Contact forces that are themselves rounding do not count, nor, where supports move
+/// the body, loads below the last digit of the forces of the cells.
 const UNANSWERED: f64 = 1e-3;
 
 /// A residual with the node where it is worst.
@@ -115,9 +115,11 @@ pub fn balance(state: &BodyState<'_>) -> Result<Balance, Error> {
     let equilibrium = worst_node(&loose, force, dimension);
     let force_defect = Defect::of(&forces, total);
     let inner = state.inner_force(equilibrium.node);
+    let mut motions = state.prescribed.iter().flatten().chain(state.values);
+    let moved = motions.any(|u| *u != 0.0);
     let given = if pressing > ROUNDED * inner {
         acting.max(pressing)
-    } else if acting > f64::EPSILON * inner {
+    } else if acting > f64::EPSILON * inner || !moved {
         acting
     } else {
         0.0

@@ -157,6 +157,31 @@ fn a_body_out_of_balance_is_mended_by_the_unit_of_its_coordinates() {
 }
 
 #[test]
+fn a_beam_whose_load_is_rounding_of_its_cells_is_mended_by_more_thickness() {
+    // 5 by 1/1000, nearly incompressible: held with twenty times its load, in other units it moved three times as far.
+    let beam = |thick: f64| {
+        let scene = json!({
+            "bodies": [{
+                "model": "plane_strain",
+                "mesh": {"rectangle": {"x": [0, 8.5], "y": [0, thick], "cells": [20, 1], "cell": "quad8"}},
+                "materials": [{"young": 0.013, "poisson": 0.4999}],
+                "supports": [{"group": "right", "displacement": [0, 0]}],
+                "loads": [{"group": "top", "traction": [0, -1.4e-15]}]
+            }],
+            "contacts": [{"group": "bottom", "friction": 0.3,
+                          "obstacle": {"plane": {"point": [0, -1.7], "normal": [0, 1]}}}]
+        });
+        Scene::from_json(&scene.to_string(), "").unwrap()
+    };
+    assert_told(
+        &beam(0.0017),
+        "out_of_balance",
+        "thousands of times as long as thick",
+    );
+    assert_mended(&beam(0.17));
+}
+
+#[test]
 fn a_tolerance_below_round_off_is_mended_by_one_above_the_floor() {
     let mut scene = square::scene(32, 0.2, 1.0);
     scene.settings.tolerance = Some(1e-15);
