@@ -90,6 +90,10 @@ impl<'a, 'c> Contacts<'a, 'c> {
             let cards = step.cards.iter();
             for &(scope, card) in cards.filter(|(_, card)| card.name == "MODELCHANGE") {
                 contacts.change(number, scope, card, contents)?;
+                notes.add(
+                    card,
+                    "a pair that is taken out stands ten times the size of the deck apart: what nothing else holds falls onto it",
+                );
             }
         }
         Ok(contacts)

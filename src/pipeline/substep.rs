@@ -217,17 +217,19 @@ impl State {
     /// How far a gap that changes from here to a later problem moves each contact, in metre: all of the
     /// change where it is pressed, and where it is open what no displacement leaves room for.
     fn opened(&self, problem: &ContactProblem, surface: &ContactSurface) -> Vec<f64> {
-        let normals = problem.normals().iter();
+        let normals = problem.normals().iter().enumerate();
         let gaps = self.gaps.iter().zip(problem.initial_gap());
         let contacts = normals.zip(self.approaches(surface)).zip(gaps);
         contacts
-            .map(
-                |((&n, approach), (before, gap))| match (gap == before, self.reaction[n] < 0.0) {
+            .map(|(((contact, &n), approach), (before, gap))| {
+                // A bond goes wherever its gap does.
+                let follows = self.reaction[n] < 0.0 || problem.is_bilateral(contact);
+                match (gap == before, follows) {
                     (true, _) => 0.0,
                     (false, true) => gap - before,
                     (false, false) => (gap - approach).min(0.0),
-                },
-            )
+                }
+            })
             .collect()
     }
 

@@ -451,6 +451,34 @@ fn laws_are_refused_by_name_where_they_are_not_known() {
 }
 
 #[test]
+fn a_bond_whose_gap_is_changed_does_the_work_of_it() {
+    // ½ k g² with k = E A / h = 2000: pulled wider step by step, pressed, and let be again.
+    for gaps in [[0.01, 0.02, 0.03], [0.01, -0.02, 0.0], [-0.01, 0.01, 0.02]] {
+        for law in [SceneLaw::Bonded, SceneLaw::NoSeparation { friction: 0.0 }] {
+            let mut scene = moved(law, 1000.0, [0.0, 0.0]);
+            let rows: Vec<[f64; 2]> = (1..)
+                .map(f64::from)
+                .zip(gaps)
+                .map(|(at, gap)| [at, gap])
+                .collect();
+            let steps = serde_json::json!({"at": [1, 2, 3], "gaps": {"contacts[0]": rows}});
+            scene.steps = Some(serde_json::from_value(steps).unwrap());
+            let mut totals = Vec::new();
+            dpana::solve_steps(&scene, None, |solution| {
+                totals.push(solution.step().unwrap().total());
+                Ok(())
+            })
+            .unwrap();
+            for (total, gap) in totals.iter().zip(gaps) {
+                let stored = 0.5 * 2000.0 * gap * gap;
+                assert!((total.elastic - stored).abs() < 1e-9, "{gaps:?}: {total:?}");
+                assert!((total.fits - stored).abs() < 1e-9, "{gaps:?}: {total:?}");
+            }
+        }
+    }
+}
+
+#[test]
 fn laws_that_are_not_convex_or_make_no_sense_are_refused_where_they_stand() {
     let with = |contact: &str| {
         let scene = format!(
