@@ -38,6 +38,14 @@ pub(crate) fn add<T: Copy + Into<f64>>(sum: &mut [f64], part: f64, column: &[T])
     }
 }
 
+/// The same with the widest registers.
+pub(crate) fn add_column<T: Copy + Into<f64>>(sum: &mut [f64], part: f64, column: &[T]) {
+    widest(
+        #[inline(always)]
+        || add(sum, part, column),
+    );
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -55,10 +63,7 @@ mod tests {
                 expected
             );
             let mut sum = a.clone();
-            widest(
-                #[inline(always)]
-                || add(&mut sum, 2.0, &a),
-            );
+            add_column(&mut sum, 2.0, &a);
             assert!(sum.iter().zip(&a).all(|(sum, a)| *sum == 3.0 * a));
         }
     }
@@ -68,10 +73,7 @@ mod tests {
         // (1 + 2⁻³⁰)² rounds off 2⁻⁶⁰.
         let a = [1.0 + 2.0_f64.powi(-30); 8];
         let mut sum = [-1.0 - 2.0_f64.powi(-29); 8];
-        widest(
-            #[inline(always)]
-            || add(&mut sum, a[0], &a),
-        );
+        add_column(&mut sum, a[0], &a);
         assert_eq!(sum, [0.0; 8]);
         let fused = widest(
             #[inline(always)]

@@ -15,7 +15,7 @@ use faer::perm::PermRef;
 use faer::{Accum, Col, Mat, MatMut, MatRef, Par};
 use rayon::prelude::*;
 
-use crate::processor::{add, widest};
+use crate::processor::add_column;
 
 /// Power iterations.
 const ITERATIONS: usize = 8;
@@ -227,10 +227,7 @@ pub(super) fn add_columns(sum: &mut [f64], matrix: &Mat<f64>, parts: &[(usize, f
     chunks.for_each(|(chunk, sum)| {
         for &(column, part) in parts {
             let entries = &matrix.col_as_slice(column)[chunk * TAKEN..];
-            widest(
-                #[inline(always)]
-                || add(sum, part, entries),
-            );
+            add_column(sum, part, entries);
         }
     });
 }

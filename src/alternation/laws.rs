@@ -12,7 +12,7 @@ use faer::Mat;
 use rayon::prelude::*;
 
 use crate::problem::{ContactProblem, Limits};
-use crate::processor::{add, widest};
+use crate::processor::add_column;
 
 /// A diagonal entry of G below this part of the largest is round-off.
 const NOTHING: f64 = f64::EPSILON;
@@ -426,11 +426,7 @@ fn column_of<'a>(
     for (at, along) in own.block.clone().zip(direction) {
         if along != 0.0 {
             let force = part * roots[at] * along;
-            let column = problem.compliance().col_as_slice(at);
-            widest(
-                #[inline(always)]
-                || add(&mut moved, force, column),
-            );
+            add_column(&mut moved, force, problem.compliance().col_as_slice(at));
         }
     }
     laws.iter().flat_map(move |law| {

@@ -126,8 +126,8 @@ impl Run<'_> {
         self.problem.floating().is_some() && acts && {
             let [reach, moved] = self.reach(&self.best);
             // Of bodies without compliance nothing else is left of it.
-            let acts = largest(self.problem.free_displacement().iter().copied());
-            moved > BEYOND * reach.max(acts)
+            let free = largest(self.problem.free_displacement().iter().copied());
+            moved > BEYOND * reach.max(free)
         }
     }
 

@@ -20,7 +20,7 @@ use rayon::prelude::*;
 
 use super::Compliance;
 use crate::error::{Error, check_finite};
-use crate::processor::{add, widest};
+use crate::processor::add_column;
 
 /// Largest asymmetry `|G_ij − G_ji|` accepted, relative to the largest entry of G.
 const SYMMETRY: f64 = 1e-10;
@@ -77,10 +77,7 @@ impl RoundedStiffness {
             let mut scaled = vec![0.0; force.len()];
             for &(column, w) in &moved {
                 let entries = &self.of_scaled.col_as_slice(column)[first..];
-                widest(
-                    #[inline(always)]
-                    || add(&mut scaled, w, entries),
-                );
+                add_column(&mut scaled, w, entries);
             }
             let scale = &self.scale[first..];
             let pairs = force.iter_mut().zip(scaled.iter().zip(scale));

@@ -9,7 +9,7 @@ use super::selection;
 use super::selection::{norm, vector};
 use super::table::Table;
 use crate::body::{Body, Facet};
-use crate::contact::{PairLaw, Places, Region};
+use crate::contact::{PairLaw, Places, Region, facet_key};
 use crate::error::Error;
 
 /// What contacts obey, drawn in the docs of [`problem::Law`](crate::problem::Law); stresses are per area of the
@@ -303,12 +303,12 @@ fn regions(
     sides: &[Side<'_>],
 ) -> Result<Vec<Region>, Error> {
     let on = |side: &Side<'_>| {
-        let of_contact: HashSet<Vec<usize>> = side.facets.iter().map(sorted).collect();
+        let of_contact: HashSet<Vec<usize>> = side.facets.iter().map(facet_key).collect();
         let regions = stated.iter().map(|(group, friction)| {
             let place = format!("{place}.{group}");
             let friction = coefficient(place.clone(), *friction)?;
             let mut facets = selection::facets(&side.body.mesh, &place, from_ref(group))?;
-            facets.retain(|facet| of_contact.contains(&sorted(facet)));
+            facets.retain(|facet| of_contact.contains(&facet_key(facet)));
             if facets.is_empty() {
                 return Err(Error::NotAccepted {
                     place,
@@ -327,12 +327,6 @@ fn regions(
     let mut found = sides.iter().map(on);
     let first = found.next().unwrap_or(Ok(Vec::new()));
     first.or_else(|error| found.find_map(Result::ok).ok_or(error))
-}
-
-fn sorted(facet: &Facet) -> Vec<usize> {
-    let mut nodes = facet.nodes.clone();
-    nodes.sort_unstable();
-    nodes
 }
 
 pub(super) fn coefficient(place: String, friction: f64) -> Result<f64, Error> {
